@@ -1,0 +1,41 @@
+# Compiler, linker and output settings for the whole tree.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
+
+# Floating point is part of the contract: the same scene gives the same bits (see docs/decisions).
+add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off -fvisibility=hidden -fvisibility-inlines-hidden)
+option(JET_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+if(JET_WARNINGS_AS_ERRORS)
+    add_compile_options(-Werror)
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-fno-gnu-unique)
+endif()
+
+set(JET_SANITIZE "" CACHE STRING "Sanitizers to build with, for -fsanitize=")
+if(JET_SANITIZE)
+    add_compile_options(-fsanitize=${JET_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined -O1)
+    add_link_options(-fsanitize=${JET_SANITIZE})
+endif()
+
+find_program(JET_CCACHE ccache)
+if(JET_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${JET_CCACHE})
+endif()
+find_program(JET_MOLD mold)
+if(JET_MOLD)
+    add_link_options(-fuse-ld=mold)
+endif()
+
+# bin/jet, lib/libjet-sdk.so, lib/jet/plugins/<id>/: it runs from the build folder as it does when installed.
+include(GNUInstallDirs)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
