@@ -22,6 +22,9 @@ enum class FillRule { NonZero, EvenOdd };
 struct JET_API Cubic {
     std::array<Vec2, 4> p;
 
+    /// The quadratic curve from a to b with control point `control`, raised to degree three.
+    static Cubic quadratic(const Vec2& a, const Vec2& control, const Vec2& b);
+
     Vec2 at(double t) const;
     Vec2 derivative(double t) const;
     /// Exact bounds, from the roots of the derivative.
@@ -32,8 +35,14 @@ struct JET_API Cubic {
     double length(double t0 = 0, double t1 = 1) const;
     /// The t whose point is nearest to q: closest root of the quintic (P(t) - q)·P'(t) = 0, or an end.
     double nearest(const Vec2& q) const;
+    /// Its points are those of its chord: both control points lie on the chord (to 1e-12 of the chord's length).
     bool isLine() const;
+    /// The form a side between two corners has: the control points are the ends.
+    bool isCornerLine() const { return p[0] == p[1] && p[2] == p[3]; }
 };
+
+/// The most intermediate points a segment may have. Files with more are refused, so that no file can ask for all memory.
+inline constexpr int kMaxIntermediate = 1000;
 
 /// An anchor point with its two control points and the number of intermediate points on the curve that starts here.
 struct Segment {
@@ -87,11 +96,13 @@ public:
     static Path line(const Vec2& a, const Vec2& b);
 
     /// Builds contour by contour, as SVG path data does. lineTo etc. need a current point: throws Failure without one.
+    /// After close() the current point is the start of the closed contour, and the next curve begins a new contour there.
     void moveTo(const Vec2& p);
     void lineTo(const Vec2& p);
     void quadTo(const Vec2& c, const Vec2& p);
     void cubicTo(const Vec2& c1, const Vec2& c2, const Vec2& p);
-    /// SVG elliptical arc, rotation in radians (SVG 2, appendix B.2), as cubics of at most a quarter turn.
+    /// SVG elliptical arc, rotation in radians (SVG 2, appendix B.2), as cubics of at most a quarter turn. A zero radius makes
+    /// a line, radii too small to reach p are scaled up, an arc to the current point draws nothing.
     void arcTo(const Vec2& radii, double rotation, bool largeArc, bool sweep, const Vec2& p);
     /// Closes the current contour; a last point equal to the first is merged into it.
     void close();
@@ -114,31 +125,40 @@ public:
     bool contains(const Vec2& p, FillRule rule = FillRule::NonZero) const;
     /// The nearest place on the path. Distance is infinite for an empty path.
     PathPosition nearest(const Vec2& p) const;
-    /// Inserts a segment on the given curve at t without changing the shape.
+    /// Inserts a segment on the given curve at t without changing the shape. Intermediate points stay on their side of t.
     void split(std::size_t contour, std::size_t curve, double t);
+    /// The same curves run through backwards. A closed contour keeps its first segment.
     Path reversed() const;
 
-    /// Polylines within `tolerance` (> 0, scene units) of the curves.
+    /// Polylines within `tolerance` (> 0, scene units) of the curves, without repeated points. A curve gives at most 4096
+    /// points, whatever its size.
     std::vector<Polyline> flatten(double tolerance) const;
     /// Polylines through the segments and their intermediate points, spaced evenly in t (the thesis's border, §3.5.2).
     std::vector<Polyline> polygonized() const;
+    /// Sets the count of every segment, limited to 0 … kMaxIntermediate.
     void setIntermediate(int count);
 
     void transform(const Affine& m);
-    /// Moves only the given segments (with their control points); indices count through all contours.
+    /// Moves only the given segments (with their control points), each once; indices count through all contours.
     void transform(const Affine& m, std::span<const std::size_t> segments);
     Path transformed(const Affine& m) const;
 
     bool operator==(const Path&) const = default;
 
-    /// The text form in project files: SVG path data in absolute `M L C Z`, shortest round-trip numbers, and a final
-    /// ` n…` list of intermediate counts where any is not 0, e.g. `M 0 0 L 10 0 L 10 5 Z n 2 2 2`. parse(text()) == *this.
+    /// The text form in project files: SVG path data in absolute `M L C Z` with shortest round-trip numbers, then what SVG
+    /// has no word for, where it is there: ` i c x y` and ` o c x y`, the control points that no curve uses before the first
+    /// and after the last segment of open contour c, and a final ` n…` list of intermediate counts, e.g.
+    /// `M 0 0 L 10 0 L 10 5 Z n 2 2 2`. parse(text()) is this path bit for bit, if all coordinates are finite, the counts
+    /// within 0 … kMaxIntermediate, and no contour is without segments (those are left out).
     std::string text() const;
     /// Reads text() and any SVG path data (all commands, relative and absolute). The error's column is the place in `text`.
     static Result<Path> parse(std::string_view text);
+    /// The same, but keeps what was read before the error, as SVG wants it drawn. `problem` receives the error, or an Error
+    /// without a message.
+    static Path parsePrefix(std::string_view text, Error* problem = nullptr);
 
 private:
-    Contour& current();
+    Contour& current();  // the open contour that the next curve continues
     std::vector<Contour> contours_;
 };
 

@@ -1,0 +1,85 @@
+# jet_add_plugin(<name> SOURCES <files>... [LIBRARIES <targets>...] [UI])
+#
+# Builds <name>.so from the sources and puts it with plugin.json (beside the calling CMakeLists.txt) into
+# <build>/lib/jet/plugins/<id>/. The built manifest also names the SDK version and the compiler ABI it was built with, so
+# that the host can refuse a mismatch before any code of the plugin runs. UI: the plugin brings a Qt widget.
+#
+# Targets: <name> (the library) and <name>-objects (its objects, for unit tests).
+
+set(JET_PLUGIN_CMAKE_DIR "${CMAKE_CURRENT_LIST_DIR}")
+
+# What JET_SDK_VERSION and JET_ABI_TAG expand to for this compiler, asked of the preprocessor.
+function(jet_sdk_tags version_variable abi_variable)
+    get_target_property(includes Jet::Sdk INTERFACE_INCLUDE_DIRECTORIES)
+    foreach(directory IN LISTS includes)
+        string(REGEX REPLACE "^\\$<(BUILD_INTERFACE|INSTALL_INTERFACE):(.*)>$" "\\2" directory "${directory}")
+        if(EXISTS "${directory}/jet/version.hpp")
+            set(header "${directory}/jet/version.hpp")
+        endif()
+    endforeach()
+    set(probe "${CMAKE_BINARY_DIR}/jet-tags.cpp")
+    file(WRITE "${probe}.in" "#include \"${header}\"\nJETVERSION=JET_SDK_VERSION;\nJETABI=JET_ABI_TAG;\n")
+    configure_file("${probe}.in" "${probe}" COPYONLY)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -E -P "${probe}" OUTPUT_VARIABLE expanded COMMAND_ERROR_IS_FATAL ANY)
+    foreach(pair "JETVERSION;${version_variable}" "JETABI;${abi_variable}")
+        list(GET pair 0 key)
+        list(GET pair 1 variable)
+        string(REGEX MATCH "${key}=([^;]*);" ignored "${expanded}")
+        string(REGEX REPLACE "[\" ]" "" value "${CMAKE_MATCH_1}")
+        set(${variable} "${value}" PARENT_SCOPE)
+    endforeach()
+endfunction()
+
+function(jet_add_plugin name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "UI" "" "SOURCES;LIBRARIES")
+    set(manifest "${CMAKE_CURRENT_SOURCE_DIR}/plugin.json")
+    if(NOT EXISTS "${manifest}")
+        message(FATAL_ERROR "jet_add_plugin(${name}): ${manifest} is missing. Each plugin needs a manifest beside its CMakeLists.txt.")
+    endif()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${manifest}")
+    file(READ "${manifest}" json)
+    string(JSON id ERROR_VARIABLE problem GET "${json}" id)
+    if(problem)
+        message(FATAL_ERROR "${manifest}: no \"id\": ${problem}")
+    endif()
+
+    if(NOT DEFINED JET_BUILT_SDK_VERSION)
+        jet_sdk_tags(sdk_version sdk_abi)
+        set(JET_BUILT_SDK_VERSION "${sdk_version}" CACHE INTERNAL "")
+        set(JET_BUILT_SDK_ABI "${sdk_abi}" CACHE INTERNAL "")
+    endif()
+    string(JSON json SET "${json}" builtFor "{\"sdk\": \"${JET_BUILT_SDK_VERSION}\", \"abi\": \"${JET_BUILT_SDK_ABI}\"}")
+
+    set(folder "${CMAKE_BINARY_DIR}/lib/jet/plugins/${id}")
+    file(MAKE_DIRECTORY "${folder}")
+    file(CONFIGURE OUTPUT "${folder}/plugin.json" CONTENT "${json}\n" @ONLY)
+
+    add_library(${name}-objects OBJECT ${arg_SOURCES})
+    set_target_properties(${name}-objects PROPERTIES
+        CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    target_compile_options(${name}-objects PRIVATE -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+    target_link_libraries(${name}-objects PUBLIC Jet::Sdk ${arg_LIBRARIES})
+    if(arg_UI)
+        target_link_libraries(${name}-objects PUBLIC Jet::SdkUi)
+    endif()
+
+    add_library(${name} MODULE $<TARGET_OBJECTS:${name}-objects>)
+    set_target_properties(${name} PROPERTIES PREFIX "" LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY "${folder}"
+        INSTALL_RPATH "$ORIGIN/../../..")
+    target_link_libraries(${name} PRIVATE ${name}-objects)
+    if(NOT JET_SANITIZE)
+        target_link_options(${name} PRIVATE -Wl,-z,defs)
+    endif()
+
+    file(GLOB icons "${CMAKE_CURRENT_SOURCE_DIR}/*.svg")
+    foreach(icon IN LISTS icons)
+        get_filename_component(icon_name "${icon}" NAME)
+        configure_file("${icon}" "${folder}/${icon_name}" COPYONLY)
+    endforeach()
+
+    include(GNUInstallDirs)
+    install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/jet/plugins/${id})
+    install(FILES "${folder}/plugin.json" ${icons} DESTINATION ${CMAKE_INSTALL_LIBDIR}/jet/plugins/${id})
+    set_property(GLOBAL APPEND PROPERTY JET_PLUGIN_TARGETS ${name})
+endfunction()

@@ -1,0 +1,64 @@
+// Editor: what panels and commands see of the running editor.
+#pragma once
+
+#include <jet/catalog.hpp>
+#include <jet/events.hpp>
+#include <jet/project.hpp>
+#include <jet/simulation.hpp>
+
+#include <string>
+
+namespace jet {
+
+/// Sent by the Editor.
+struct ProjectChanged {  ///< another project was opened or its scenes changed
+    static constexpr EventType type{"org.jet.project-changed"};
+};
+struct ActiveSceneChanged {
+    static constexpr EventType type{"org.jet.active-scene-changed"};
+    Scene* scene;  ///< null when no scene tab is in front
+};
+struct ActiveToolChanged {
+    static constexpr EventType type{"org.jet.active-tool-changed"};
+    std::string tool;
+};
+
+class JET_API Editor {
+public:
+    virtual ~Editor();
+
+    virtual EventsCenter& events() = 0;
+    virtual Catalog& catalog() = 0;
+    virtual Project& project() = 0;
+    virtual SimulationCenter& simulation() = 0;
+    /// The scene of the front tab, or null.
+    virtual Scene* activeScene() = 0;
+    virtual void openScene(Scene& scene) = 0;
+    /// Opens a script item's code in an editor tab, at a line if > 0.
+    virtual void openScript(Scene& scene, ItemId script, int line = 0) = 0;
+
+    virtual std::string activeTool() const = 0;
+    virtual void setActiveTool(std::string_view id) = 0;
+    /// Option values of the active tool.
+    virtual void setToolOption(std::string_view property, Value value) = 0;
+
+    /// A line in the Output panel.
+    virtual void print(OutputLine line) = 0;
+    /// A message the user must see; not modal.
+    virtual void showMessage(std::string text) = 0;
+    virtual void showStatus(std::string text) = 0;
+    /// The layer new items go to: set by the Layers panel; an id not in the scene means none.
+    virtual ItemId activeLayer() const = 0;
+    virtual void setActiveLayer(ItemId layer) = 0;
+};
+
+/// A menu command. Stateless; declared in the manifest with menu, label and shortcut.
+class JET_API Command {
+public:
+    virtual ~Command();
+    virtual void run(Editor& editor) = 0;
+    /// Shown enabled? Called when a menu opens.
+    virtual bool isEnabled(Editor& editor) const;
+};
+
+}  // namespace jet

@@ -1,0 +1,175 @@
+// Simulation: a running copy of a scene. The same code plays with and without a window.
+//
+//   auto simulation = Simulation::start(scene, options).orThrow();
+//   simulation->setKey("D", true);
+//   simulation->step();
+//
+// A Simulation belongs to one thread at a time. SimulationCenter runs one on a thread of its own.
+#pragma once
+
+#include <jet/events.hpp>
+#include <jet/format.hpp>
+#include <jet/input.hpp>
+#include <jet/physics.hpp>
+#include <jet/scene.hpp>
+#include <jet/script.hpp>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace jet {
+
+struct SimulationOptions {
+    std::optional<double> timeStep;  ///< seconds; none: the scene's
+    std::string physics;             ///< engine id; empty: the scene's, else the first installed
+    std::uint64_t seed = 1;          ///< for Math.random in scripts
+    int threads = 1;
+    Vec2 viewSize{1280, 720};        ///< pixels, as scripts see it
+    /// Finds another scene for CC.getScene(name) and playScene; may be empty.
+    std::function<const Scene*(std::string_view)> sceneByName;
+};
+
+/// What is printed while playing.
+struct OutputLine {
+    enum class Kind { Text, Warning, Error };
+    Kind kind = Kind::Text;
+    std::string text;
+    ItemId script;  ///< the script item an error is in; none otherwise
+    int line = 0;   ///< of that script, from 1
+};
+
+/// The camera of a running game.
+struct GameView {
+    View view;
+    Vec2 size;  ///< pixels
+};
+
+class JET_API Simulation final : public PoseSource {
+public:
+    /// Copies the scene, builds all bodies and runs the scripts. Fails when there is no physics engine or a body definition is
+    /// impossible; script errors are printed, not fatal.
+    static Result<std::unique_ptr<Simulation>> start(const Scene& scene, SimulationOptions options);
+    ~Simulation() override;
+
+    /// One fixed time step: scripts' onStep, physics, collisions to scripts (SPEC PH10).
+    void step();
+    std::uint64_t stepCount() const;
+    /// Simulated seconds.
+    double time() const;
+    double timeStep() const;
+
+    const Scene& scene() const;
+    PhysicsWorld& world();
+    const PhysicsWorld& world() const;
+
+    // Bodies and actuators by item.
+    BodyHandle bodyOf(ItemId item) const;  ///< kNoHandle when the item has no body
+    ItemId itemOf(BodyHandle body) const;
+    ActuatorHandle actuatorOf(ItemId item) const;
+    const Path* pose(const Item& item) const override;
+    /// In the thesis's sign: positive turns left (counter-clockwise on screen).
+    void setTorque(ItemId item, double value);
+    double torque(ItemId item) const;
+
+    // Input. Keys are named as in KeyEvent; unknown names are simply never pressed.
+    void key(const KeyEvent& event, bool down);
+    void setKey(std::string_view key, bool down);
+    bool isPressed(std::string_view key) const;
+    void pointer(ScriptEventKind kind, const PointerEvent& event);
+
+    GameView& view();
+    const GameView& view() const;
+
+    /// Appends to the output; also what scripts print.
+    void print(OutputLine line);
+    void print(std::string text) { print(OutputLine{OutputLine::Kind::Text, std::move(text), {}, 0}); }
+    /// The last 10,000 lines.
+    const std::deque<OutputLine>& output() const;
+    /// Called for each line as it is printed, on the simulation's thread.
+    void setOutputHandler(std::function<void(const OutputLine&)> handler);
+
+    /// A script asked to go to another scene; the player acts on it after the step.
+    void requestScene(std::string name);
+    const std::optional<std::string>& requestedScene() const;
+    const Scene* sceneByName(std::string_view name) const;
+
+    /// Deterministic random number in [0, 1).
+    double random();
+    /// Changes a property while playing, on the copy only (live tuning); bodies are not rebuilt.
+    void setItemProperty(ItemId item, std::string_view property, Value value);
+
+    /// Hash of the dynamic state: equal runs give equal hashes.
+    std::uint64_t hash() const;
+    /// The state file of the command line (DESIGN §5), as JSON text.
+    std::string stateJson() const;
+
+private:
+    Simulation();
+    struct Private;
+    std::unique_ptr<Private> d_;
+};
+
+/// An immutable picture of a running simulation, handed from its thread to the window.
+struct SimulationFrame {
+    std::uint64_t step = 0;
+    double time = 0;
+    double stepMs = 0;  ///< wall time of the last step
+    GameView view;
+    std::vector<std::pair<ItemId, Path>> poses;  ///< items with a body, sorted by id
+};
+
+/// Sent by the SimulationCenter on the owner thread of its EventsCenter.
+struct SimulationStateChanged {
+    static constexpr EventType type{"org.jet.simulation-state-changed"};
+    enum class State { Stopped, Playing, Paused };
+    State state;
+};
+struct SimulationFrameReady {
+    static constexpr EventType type{"org.jet.simulation-frame-ready"};
+};
+struct OutputPrinted {
+    static constexpr EventType type{"org.jet.output-printed"};
+    OutputLine line;
+};
+
+/// Plays one scene at a time on its own thread, in real time (thesis §2.4.3.8 Animator, SPEC EN8).
+class JET_API SimulationCenter {
+public:
+    using State = SimulationStateChanged::State;
+
+    explicit SimulationCenter(EventsCenter& events);
+    ~SimulationCenter();
+
+    Result<void> play(const Scene& scene, SimulationOptions options);
+    void pause();
+    void resume();
+    /// One step while paused.
+    void singleStep();
+    /// Ends the run; the edited scene was never touched (SPEC PH11).
+    void stop();
+    State state() const;
+    /// The scene being played, as edited; null when stopped.
+    const Scene* scene() const;
+    /// The running copy's items (for painting with a frame's poses); null when stopped. Read-only during play.
+    const Scene* runningScene() const;
+    /// 1 = real time.
+    void setSpeed(double factor);
+
+    /// Latest frame; null when stopped. [owner's thread]
+    std::shared_ptr<const SimulationFrame> frame() const;
+    /// Queued for the simulation thread.
+    void key(const KeyEvent& event, bool down);
+    void pointer(ScriptEventKind kind, const PointerEvent& event);
+    void setViewSize(const Vec2& pixels);
+
+private:
+    struct Private;
+    std::unique_ptr<Private> d_;
+};
+
+}  // namespace jet

@@ -1,0 +1,8 @@
+#include <jet/physics.hpp>
+
+namespace jet {
+
+PhysicsWorld::~PhysicsWorld() = default;
+PhysicsEngine::~PhysicsEngine() = default;
+
+}  // namespace jet
