@@ -1,7 +1,7 @@
 // The Bézier path every item has: contours of segments with two control points each, handled as curves, not polygons.
 //
-// A *segment* is the thesis's word (§3.4.1) for an anchor point with its two control points; the curve from one segment to
-// the next is a cubic with control points {a.point, a.out, b.in, b.point}. All coordinates are absolute scene units.
+// A *segment* is the thesis's word (§3.4.1) for an anchor point with its two control points; the curve from one segment
+// to the next is a cubic with control points {a.point, a.out, b.in, b.point}. All coordinates are absolute scene units.
 #pragma once
 
 #include <jet/geometry.hpp>
@@ -41,19 +41,21 @@ struct JET_API Cubic {
     bool isCornerLine() const { return p[0] == p[1] && p[2] == p[3]; }
 };
 
-/// The most intermediate points a segment may have. Files with more are refused, so that no file can ask for all memory.
+/// The most intermediate points a segment may have. Files with more are refused: none shall ask for all memory.
 inline constexpr int kMaxIntermediate = 1000;
 
 /// An anchor point with its two control points and the number of intermediate points on the curve that starts here.
 struct Segment {
-    Vec2 point;  ///< on the curve
-    Vec2 in;     ///< control point of the curve that ends here; equal to `point` for a corner
-    Vec2 out;    ///< control point of the curve that starts here
+    Vec2 point;            ///< on the curve
+    Vec2 in;               ///< control point of the curve that ends here; equal to `point` for a corner
+    Vec2 out;              ///< control point of the curve that starts here
     int intermediate = 0;  ///< points a polygon of this path takes strictly inside the curve that starts here
 
     Segment() = default;
     Segment(const Vec2& corner, int count = 0) : point(corner), in(corner), out(corner), intermediate(count) {}
-    Segment(const Vec2& p, const Vec2& i, const Vec2& o, int count = 0) : point(p), in(i), out(o), intermediate(count) {}
+    Segment(const Vec2& p, const Vec2& i, const Vec2& o, int count = 0) : point(p), in(i), out(o), intermediate(count)
+    {
+    }
     bool operator==(const Segment&) const = default;
 };
 
@@ -96,13 +98,13 @@ public:
     static Path line(const Vec2& a, const Vec2& b);
 
     /// Builds contour by contour, as SVG path data does. lineTo etc. need a current point: throws Failure without one.
-    /// After close() the current point is the start of the closed contour, and the next curve begins a new contour there.
+    /// After close() the current point is the start of the closed contour, where the next curve begins a new one.
     void moveTo(const Vec2& p);
     void lineTo(const Vec2& p);
     void quadTo(const Vec2& c, const Vec2& p);
     void cubicTo(const Vec2& c1, const Vec2& c2, const Vec2& p);
-    /// SVG elliptical arc, rotation in radians (SVG 2, appendix B.2), as cubics of at most a quarter turn. A zero radius makes
-    /// a line, radii too small to reach p are scaled up, an arc to the current point draws nothing.
+    /// SVG elliptical arc, rotation in radians (SVG 2, appendix B.2), as cubics of at most a quarter turn. A zero
+    /// radius makes a line, radii too small to reach p are scaled up, an arc to the current point draws nothing.
     void arcTo(const Vec2& radii, double rotation, bool largeArc, bool sweep, const Vec2& p);
     /// Closes the current contour; a last point equal to the first is merged into it.
     void close();
@@ -125,13 +127,13 @@ public:
     bool contains(const Vec2& p, FillRule rule = FillRule::NonZero) const;
     /// The nearest place on the path. Distance is infinite for an empty path.
     PathPosition nearest(const Vec2& p) const;
-    /// Inserts a segment on the given curve at t without changing the shape. Intermediate points stay on their side of t.
+    /// Inserts a segment on the given curve at t without changing the shape. Intermediate points keep their side.
     void split(std::size_t contour, std::size_t curve, double t);
     /// The same curves run through backwards. A closed contour keeps its first segment.
     Path reversed() const;
 
-    /// Polylines within `tolerance` (> 0, scene units) of the curves, without repeated points. A curve gives at most 4096
-    /// points, whatever its size.
+    /// Polylines within `tolerance` (> 0, scene units) of the curves, without repeated points. A curve gives at most
+    /// 4096 points, whatever its size.
     std::vector<Polyline> flatten(double tolerance) const;
     /// Polylines through the segments and their intermediate points, spaced evenly in t (the thesis's border, §3.5.2).
     std::vector<Polyline> polygonized() const;
@@ -145,16 +147,16 @@ public:
 
     bool operator==(const Path&) const = default;
 
-    /// The text form in project files: SVG path data in absolute `M L C Z` with shortest round-trip numbers, then what SVG
-    /// has no word for, where it is there: ` i c x y` and ` o c x y`, the control points that no curve uses before the first
-    /// and after the last segment of open contour c, and a final ` n…` list of intermediate counts, e.g.
-    /// `M 0 0 L 10 0 L 10 5 Z n 2 2 2`. parse(text()) is this path bit for bit, if all coordinates are finite, the counts
-    /// within 0 … kMaxIntermediate, and no contour is without segments (those are left out).
+    /// The text form in project files: SVG path data in absolute `M L C Z` with shortest round-trip numbers, then what
+    /// SVG has no word for, where it is there: ` i c x y` and ` o c x y`, the control points that no curve uses before
+    /// the first and after the last segment of open contour c, and a final ` n…` list of intermediate counts:
+    /// `M 0 0 L 10 0 L 10 5 Z n 2 2 2`. parse(text()) is this path bit for bit, if all coordinates are finite, the
+    /// counts within 0 … kMaxIntermediate, and no contour is without segments (those are left out).
     std::string text() const;
-    /// Reads text() and any SVG path data (all commands, relative and absolute). The error's column is the place in `text`.
+    /// Reads text() and any SVG path data (all commands, relative and absolute). The error's column is that in `text`.
     static Result<Path> parse(std::string_view text);
-    /// The same, but keeps what was read before the error, as SVG wants it drawn. `problem` receives the error, or an Error
-    /// without a message.
+    /// The same, but keeps what was read before the error, as SVG wants it drawn. `problem` receives the error, or an
+    /// Error without a message.
     static Path parsePrefix(std::string_view text, Error* problem = nullptr);
 
 private:

@@ -1,5 +1,5 @@
-// Properties are declared once, in a table per item type or effect. The XML, the Inspector, tool options, undo, script access
-// and documentation all come from the table: a plugin author who adds a property writes one line and no user interface.
+// Properties are declared once, in a table per item type or effect. The XML, the Inspector, tool options, undo, script
+// access and documentation come from the table: a plugin author who adds a property writes one line and no interface.
 #pragma once
 
 #include <jet/value.hpp>
@@ -31,7 +31,7 @@ struct PropertySpec {
     PropertySpec&& range(double lo, double hi) && { return minimum = lo, maximum = hi, std::move(*this); }
     PropertySpec&& says(std::string h) && { return help = std::move(h), std::move(*this); }
 
-    /// Is the value of this kind, finite and in range (for a vector: each component)? The error names property, value and range.
+    /// Is the value of this kind, finite and in range (a vector: both components)? The error names all three.
     JET_API Result<void> check(const Value& value) const;
 };
 
@@ -48,7 +48,8 @@ private:
     std::vector<PropertySpec> specs_;
 };
 
-// How a table is written: PropertyTable{ real("mass", "Mass", 1).in("kg").range(0.001, 1e6), flag("fixed", "Fixed", false) }
+// How a table is written:
+// PropertyTable{ real("mass", "Mass", 1).in("kg").range(0.001, 1e6), flag("fixed", "Fixed", false) }
 JET_API PropertySpec flag(std::string id, std::string label, bool fallback);
 JET_API PropertySpec integer(std::string id, std::string label, std::int64_t fallback);
 JET_API PropertySpec real(std::string id, std::string label, double fallback);

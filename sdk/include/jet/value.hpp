@@ -1,4 +1,4 @@
-// The values properties hold. A Value is plain data: it can be stored in undo steps and files without the plugin that made it.
+// The values properties hold. A Value is plain data: undo steps and files store it without the plugin that made it.
 #pragma once
 
 #include <jet/geometry.hpp>
@@ -74,18 +74,20 @@ public:
     /// Bit-wise for reals, also those in vectors and paths: -0 differs from 0, a NaN equals itself. Undo depends on it.
     bool operator==(const Value& other) const;
 
-    /// Locale-independent text; the fewest digits that read back to the same bits. A vector is `x y`, an item its number.
+    /// Locale-independent; the fewest digits that read back to the same bits. A vector is `x y`, an item its number.
     std::string text() const;
     /// Reads text as `kind`. Rejects NaN, infinities, trailing characters; the error says what was expected.
     static Result<Value> parse(ValueKind kind, std::string_view text);
 
-    using Content = std::variant<std::monostate, bool, std::int64_t, double, Vec2, Color, std::string, ItemId, Path, RawText>;
+    using Content =
+        std::variant<std::monostate, bool, std::int64_t, double, Vec2, Color, std::string, ItemId, Path, RawText>;
     const Content& content() const { return content_; }
 
 private:
     Content content_;
 };
 
+// clang-format off
 template <> JET_API bool Value::as<bool>() const;
 template <> JET_API int Value::as<int>() const;
 template <> JET_API std::int64_t Value::as<std::int64_t>() const;
@@ -95,13 +97,14 @@ template <> JET_API Color Value::as<Color>() const;
 template <> JET_API std::string Value::as<std::string>() const;
 template <> JET_API ItemId Value::as<ItemId>() const;
 template <> JET_API Path Value::as<Path>() const;
+// clang-format on
 
-// Numbers as text, independent of locale (std::to_chars / from_chars): the fewest digits that read back to the same bits,
-// without an exponent from 1e-5 to 1e15.
+// Numbers as text, independent of locale (std::to_chars / from_chars): the fewest digits that read back to the same
+// bits, without an exponent from 1e-5 to 1e15.
 JET_API std::string numberText(double value);
 JET_API void appendNumber(std::string& out, double value);
-/// The number at the start of `text` (SVG/XML syntax: optional sign, digits, fraction, exponent), advancing it; no inf/nan.
-/// False, and nothing changed, where there is none or it is too large for a double. One too small reads as 0.
+/// The number at the start of `text` (SVG/XML syntax: optional sign, digits, fraction, exponent), advancing it; no
+/// inf/nan. False, and nothing changed, where there is none or it is too large for a double. One too small reads as 0.
 JET_API bool readNumber(std::string_view& text, double& value);
 
 }  // namespace jet
