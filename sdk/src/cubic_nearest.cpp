@@ -40,7 +40,7 @@ public:
     double best() const { return best_; }
 
 private:
-    /// (P·P') as a Bernstein polynomial: products of basis functions, Farin eq. (6.14).
+    /// (P·P') as a Bernstein polynomial: products of basis functions, Farin, ch. 6.
     Quintic distanceQuintic() const
     {
         constexpr std::array<double, 4> choose3{1, 3, 3, 1};

@@ -88,7 +88,8 @@ private:
     void deliver(const void* sender, EventType type, const void* event);
     bool onOwnerThread() const;
 
-    friend struct Subscription::Link;
+    friend class Subscription;
+
     struct Private;
     std::shared_ptr<Private> d_;
 };

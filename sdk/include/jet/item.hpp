@@ -97,11 +97,9 @@ public:
     /// Grows with each change of this item's own data (not of its children): a key for caches derived from it.
     std::uint64_t revision() const { return revision_; }
 
+    struct Mutator;  ///< the SDK's own way to change items; not defined for plugins
+
 private:
-    friend class ItemsCenter;
-    friend class SceneBuilder;
-    struct Mutator;
-    friend struct Mutator;
 
     void touch();
 

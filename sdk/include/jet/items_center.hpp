@@ -94,14 +94,16 @@ public:
     void rollback();
     /// Back to the state just after begin(), still open: a drag re-applies its whole movement each time, without drift.
     void restart();
-    bool isOpen() const { return center_ != nullptr; }
+    bool isOpen() const;
     /// Has anything been recorded?
     bool isEmpty() const;
 
 private:
     friend class ItemsCenter;
-    explicit Transaction(ItemsCenter& center) : center_(&center) {}
+    Transaction(ItemsCenter& center, std::uint64_t serial) : center_(&center), serial_(serial) {}
+    ItemsCenter& open() const;  ///< throws Failure when no longer open
     ItemsCenter* center_;
+    std::uint64_t serial_;  ///< tells this transaction from a later one after abandon()
 };
 
 /// The tree and the selection of one scene. Lives in a Scene.

@@ -11,7 +11,7 @@ namespace jet {
 /// A symmetric table of material pairs. The first material is the default of every body.
 class JET_API MaterialTable {
 public:
-    MaterialTable();
+    explicit MaterialTable(std::string first = "default");
 
     std::size_t size() const { return names_.size(); }
     const std::vector<std::string>& names() const { return names_; }

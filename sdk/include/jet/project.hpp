@@ -5,6 +5,7 @@
 #include <jet/scene.hpp>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -70,6 +71,8 @@ private:
     Filter root_;
     std::vector<FormatNote> notes_;
     std::vector<std::filesystem::path> obsoleteFiles_;
+    std::map<const Scene*, std::string> sceneFiles_;  ///< relative to the project's folder, '/' between parts
+    std::vector<PluginUse> recordedUses_;             ///< as read: kept for plugins that are not installed
     bool structureChanged_ = true;
     friend class ProjectReader;
     friend class ProjectWriter;

@@ -103,6 +103,9 @@ public:
     /// Changes a property while playing, on the copy only (live tuning); bodies are not rebuilt.
     void setItemProperty(ItemId item, std::string_view property, Value value);
 
+    /// Called for each such change, on the simulation's thread.
+    void setPropertyHandler(std::function<void(ItemId, std::string_view, const Value&)> handler);
+
     /// Hash of the dynamic state: equal runs give equal hashes.
     std::uint64_t hash() const;
     /// The state file of the command line (DESIGN §5), as JSON text.
@@ -155,7 +158,7 @@ public:
     State state() const;
     /// The scene being played, as edited; null when stopped.
     const Scene* scene() const;
-    /// The running copy's items (for painting with a frame's poses); null when stopped. Read-only during play.
+    /// A copy of the scene for painting with a frame's poses, with what scripts changed; null when stopped. [owner's thread]
     const Scene* runningScene() const;
     /// 1 = real time.
     void setSpeed(double factor);

@@ -1,0 +1,77 @@
+// Key functions of the interfaces plugins implement: one home for each vtable and type info, whatever library uses it.
+#include <jet/catalog.hpp>
+#include <jet/editor.hpp>
+#include <jet/effect.hpp>
+#include <jet/format.hpp>
+#include <jet/item_type.hpp>
+#include <jet/painter.hpp>
+#include <jet/plugin.hpp>
+#include <jet/script.hpp>
+#include <jet/tool.hpp>
+
+namespace jet {
+
+Painter::~Painter() = default;
+PluginRegistrar::~PluginRegistrar() = default;
+Catalog::~Catalog() = default;
+Importer::~Importer() = default;
+Exporter::~Exporter() = default;
+PoseSource::~PoseSource() = default;
+ScriptRuntime::~ScriptRuntime() = default;
+ScriptEngine::~ScriptEngine() = default;
+WorldBuilder::~WorldBuilder() = default;
+Editor::~Editor() = default;
+
+Command::~Command() = default;
+bool Command::isEnabled(Editor&) const { return true; }
+
+EffectState::~EffectState() = default;
+Effect::~Effect() = default;
+std::string Effect::rejects(const Item& item) const
+{
+    return item.path().isEmpty() ? "'" + item.name() + "' has no path to apply it to" : std::string();
+}
+void Effect::applied(Transaction&, const Item&) const {}
+std::unique_ptr<EffectState> Effect::update(const EffectInput&) const { return nullptr; }
+void Effect::paint(const EffectInput&, const EffectState*, PaintPurpose, Painter&) const {}
+std::optional<BodyDef> Effect::buildBody(const EffectInput&, const BodyCommon&) const { return std::nullopt; }
+
+ItemType::~ItemType() = default;
+void ItemType::paint(const Item&, const Path&, PaintPurpose, Painter&) const {}
+void ItemType::build(const Item&, WorldBuilder&) const {}
+
+ToolHost::~ToolHost() = default;
+Tool::~Tool() = default;
+void Tool::activate() {}
+void Tool::deactivate() { cancel(); }
+void Tool::press(const PointerEvent&) {}
+void Tool::drag(const PointerEvent&) {}
+void Tool::release(const PointerEvent&) {}
+void Tool::move(const PointerEvent&) {}
+void Tool::doubleClick(const PointerEvent&) {}
+bool Tool::wheel(const WheelEvent&) { return false; }
+bool Tool::keyPress(const KeyEvent&) { return false; }
+bool Tool::keyRelease(const KeyEvent&) { return false; }
+bool Tool::cancel() { return false; }
+void Tool::paint(Painter&) const {}
+const PropertyTable& Tool::options() const
+{
+    static const PropertyTable none;
+    return none;
+}
+
+std::string_view manifestKey(ContributionKind kind)
+{
+    static constexpr std::string_view keys[] = {"tools",     "effects",        "itemTypes",     "importers", "exporters",
+                                                "physicsEngines", "scriptEngines", "panels", "commands"};
+    return keys[static_cast<int>(kind)];
+}
+
+std::string_view kindName(ContributionKind kind)
+{
+    static constexpr std::string_view names[] = {"tool",           "effect",        "item type", "importer", "exporter",
+                                                 "physics engine", "script engine", "panel",     "command"};
+    return names[static_cast<int>(kind)];
+}
+
+}  // namespace jet

@@ -1,0 +1,198 @@
+// The item types every scene knows (SPEC IT1-IT8): their properties, their look while editing, what they add to a simulation.
+#include <jet/catalog.hpp>
+#include <jet/item_type.hpp>
+
+#include <array>
+#include <numbers>
+
+namespace jet {
+
+namespace {
+
+class PlainType : public ItemType {
+public:
+    PlainType(std::string label, PropertyTable table) : label_(std::move(label)), table_(std::move(table)) {}
+    const PropertyTable& properties() const override { return table_; }
+    std::string label() const override { return label_; }
+
+protected:
+    template <class T>
+    T get(const Item& item, std::string_view property) const
+    {
+        return item.properties().get(property, table_).as<T>();
+    }
+
+private:
+    std::string label_;
+    PropertyTable table_;
+};
+
+constexpr Color kOutline{120, 120, 128, 255};
+constexpr Color kActuator{176, 64, 0, 255};
+
+Pen cosmeticPen(Color color, double pixels)
+{
+    Pen pen;
+    pen.color = color;
+    pen.width = pixels;
+    pen.cosmetic = true;
+    return pen;
+}
+
+/// A shape without any effect would be invisible: while editing, its outline shows.
+class ShapeType final : public PlainType {
+public:
+    using PlainType::PlainType;
+    void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (purpose != PaintPurpose::Edit) return;
+        for (const EffectInstance& effect : item.effects())
+            if (effect.visible) return;
+        painter.stroke(path, cosmeticPen(kOutline, 1));
+    }
+};
+
+PropertyTable springProperties()
+{
+    return PropertyTable{
+        real("ks", "Stiffness ks", 10).in("force/unit").range(0, 1e9),
+        real("kd", "Damping kd", 0.1).in("force·s/unit").range(0, 1e9),
+        real("rest-length", "Rest length", -1).in("units").range(-1, 1e9).says("-1: the length as drawn."),
+        real("tear-ratio", "Tears at", 0).in("× rest length").range(0, 1e6).says("0: never tears."),
+    };
+}
+
+/// Ends = first and last segment of the path (thesis §3.4.6).
+class SpringType final : public PlainType {
+public:
+    SpringType() : PlainType("Spring", springProperties()) {}
+    void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (purpose != PaintPurpose::Export) painter.stroke(path, cosmeticPen(kActuator, 2));
+    }
+    void build(const Item& item, WorldBuilder& builder) const override
+    {
+        const std::size_t count = item.path().segmentCount();
+        if (count < 2) return builder.warn(item, "a spring needs a path with two ends; it does nothing");
+        SpringActuatorDef def;
+        def.a = builder.anchor(item, item.path().segment(0).point);
+        def.b = builder.anchor(item, item.path().segment(count - 1).point);
+        def.ks = get<double>(item, "ks");
+        def.kd = get<double>(item, "kd");
+        def.restLength = get<double>(item, "rest-length");
+        def.tearRatio = get<double>(item, "tear-ratio");
+        builder.bind(item, builder.world().addSpring(def));
+    }
+};
+
+class AngularSpringType final : public PlainType {
+public:
+    AngularSpringType()
+        : PlainType("Angular spring",
+                    PropertyTable{
+                        real("ks", "Stiffness ks", 1000).in("torque/rad").range(0, 1e12),
+                        real("kd", "Damping kd", 10).in("torque·s/rad").range(0, 1e12),
+                        flag("rest-as-drawn", "Rest angle as drawn", true),
+                        real("rest-angle", "Rest angle", 0).in("rad").range(-4 * std::numbers::pi, 4 * std::numbers::pi),
+                    })
+    {
+    }
+    void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (purpose != PaintPurpose::Export) painter.stroke(path, cosmeticPen(kActuator, 2));
+    }
+    void build(const Item& item, WorldBuilder& builder) const override
+    {
+        const std::size_t count = item.path().segmentCount();
+        if (count < 3) return builder.warn(item, "an angular spring needs a path with three points; it does nothing");
+        AngularSpringActuatorDef def;
+        def.a = builder.anchor(item, item.path().segment(0).point);
+        def.centre = builder.anchor(item, item.path().segment(count / 2).point);
+        def.b = builder.anchor(item, item.path().segment(count - 1).point);
+        def.ks = get<double>(item, "ks");
+        def.kd = get<double>(item, "kd");
+        def.restFromPose = get<bool>(item, "rest-as-drawn");
+        def.restAngle = get<double>(item, "rest-angle");
+        builder.bind(item, builder.world().addAngularSpring(def));
+    }
+};
+
+/// Point of action = centre of the bounding box, drawn as a dot (thesis §3.4.7).
+class TorqueType final : public PlainType {
+public:
+    TorqueType()
+        : PlainType("Torque", PropertyTable{real("value", "Torque", 0)
+                                                .in("force·unit")
+                                                .range(-1e12, 1e12)
+                                                .says("Positive turns left, negative right.")})
+    {
+    }
+    void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (purpose != PaintPurpose::Edit || path.isEmpty()) return;
+        painter.stroke(path, cosmeticPen(kActuator, 2));
+        const double r = 3 / std::max(painter.pixelsPerUnit(), 1e-9);
+        const Vec2 centre = path.bounds().center();
+        painter.fill(Path::ellipse(Box(centre - Vec2(r, r), centre + Vec2(r, r))), Brush(kActuator), FillRule::NonZero);
+    }
+    void build(const Item& item, WorldBuilder& builder) const override
+    {
+        if (item.path().isEmpty()) return builder.warn(item, "a torque needs a path to tell where it acts; it does nothing");
+        TorqueActuatorDef def;
+        def.at = builder.anchor(item, item.path().bounds().center());
+        if (def.at.body == kNoHandle) return builder.warn(item, "no body lies under the torque's centre; it does nothing");
+        def.value = -get<double>(item, "value");  // the world counts clockwise on screen
+        builder.bind(item, builder.world().addTorque(def));
+    }
+};
+
+PropertyTable bodyProperties()
+{
+    return PropertyTable{
+        flag("fixed", "Fixed", false).says("Never moves; collides with everything that does."),
+        text("material", "Material", "").says("Name in the scene's table of materials; empty: the first."),
+        vector("velocity", "Start velocity", {0, 0}).in("units/s"),
+        real("omega", "Start spin", 0).in("rad/s").range(-1e6, 1e6),
+        real("gravity-scale", "Gravity scale", 1).range(-1e6, 1e6),
+        flag("sensor", "Sensor", false).says("Reports contacts without being pushed."),
+    };
+}
+
+struct BuiltIn {
+    std::string_view id;
+    std::unique_ptr<ItemType> type;
+};
+
+const std::array<BuiltIn, 8>& builtIns()
+{
+    static const std::array<BuiltIn, 8> all{{
+        {GroupItem::type, std::make_unique<PlainType>("Group", PropertyTable{})},
+        {LayerItem::type, std::make_unique<PlainType>("Layer", PropertyTable{})},
+        {ShapeItem::type, std::make_unique<ShapeType>("Shape", PropertyTable{})},
+        {BodyItem::type, std::make_unique<ShapeType>("Body", bodyProperties())},
+        {ScriptItem::type,
+         std::make_unique<PlainType>("Script", PropertyTable{text("code", "Code", "", true).says("JavaScript, run at play.")})},
+        {SpringItem::type, std::make_unique<SpringType>()},
+        {RSpringItem::type, std::make_unique<AngularSpringType>()},
+        {TorqueItem::type, std::make_unique<TorqueType>()},
+    }};
+    return all;
+}
+
+}  // namespace
+
+const ItemType* builtInItemType(std::string_view id)
+{
+    for (const BuiltIn& one : builtIns())
+        if (one.id == id) return one.type.get();
+    return nullptr;
+}
+
+std::vector<std::string_view> builtInItemTypeIds()
+{
+    std::vector<std::string_view> ids;
+    for (const BuiltIn& one : builtIns()) ids.push_back(one.id);
+    return ids;
+}
+
+}  // namespace jet

@@ -1,0 +1,130 @@
+#include "hasher.hpp"
+
+#include <jet/catalog.hpp>
+#include <jet/project.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace jet {
+
+namespace {
+
+void collectScenes(const Filter& filter, std::vector<Scene*>& scenes)
+{
+    for (const auto& scene : filter.scenes) scenes.push_back(scene.get());
+    for (const auto& child : filter.filters) collectScenes(*child, scenes);
+}
+
+bool eraseScene(Filter& filter, const Scene& scene)
+{
+    if (std::erase_if(filter.scenes, [&](const auto& s) { return s.get() == &scene; }) > 0) return true;
+    return std::any_of(filter.filters.begin(), filter.filters.end(), [&](auto& child) { return eraseScene(*child, scene); });
+}
+
+}  // namespace
+
+Project::Project(EventsCenter& events, Catalog& catalog) : events_(events), catalog_(catalog) {}
+Project::~Project() = default;
+
+std::unique_ptr<Project> Project::create(std::string name, EventsCenter& events, Catalog& catalog)
+{
+    std::unique_ptr<Project> project(new Project(events, catalog));
+    project->name_ = std::move(name);
+    project->root_.name = "Filter0";
+    Scene& scene = project->addScene("Scene 0");
+    SceneBuilder builder(scene);
+    builder.setName(builder.add(builder.root(), {}, LayerItem::type), "Layer");
+    project->structureChanged_ = false;  // an untouched new project may be closed without a question
+    return project;
+}
+
+std::vector<Scene*> Project::scenes() const
+{
+    std::vector<Scene*> all;
+    collectScenes(root_, all);
+    return all;
+}
+
+Scene* Project::scene(std::string_view name) const
+{
+    for (Scene* scene : scenes())
+        if (scene->name() == name) return scene;
+    return nullptr;
+}
+
+Scene& Project::addScene(std::string name, Filter* filter)
+{
+    auto& scenes = (filter ? *filter : root_).scenes;
+    scenes.push_back(std::make_unique<Scene>(std::move(name), events_, catalog_));
+    structureChanged_ = true;
+    return *scenes.back();
+}
+
+void Project::removeScene(const Scene& scene)
+{
+    if (const auto file = sceneFiles_.find(&scene); file != sceneFiles_.end()) {
+        obsoleteFiles_.push_back(file->second);
+        sceneFiles_.erase(file);
+    }
+    eraseScene(root_, scene);
+    structureChanged_ = true;
+}
+
+std::string Project::freeSceneName() const
+{
+    for (int i = 0;; ++i) {
+        std::string name = "Scene " + std::to_string(i);
+        if (!scene(name)) return name;
+    }
+}
+
+bool Project::isModified() const
+{
+    if (structureChanged_) return true;
+    const auto all = scenes();
+    return std::any_of(all.begin(), all.end(), [](const Scene* scene) { return !scene->undoRedo().isClean(); });
+}
+
+std::vector<PluginUse> Project::pluginsUsed() const
+{
+    std::map<std::string, PluginUse> uses;
+    std::map<std::pair<ContributionKind, std::string>, std::string> providers;  // asked once a type, not once an item
+    const auto count = [&](ContributionKind kind, const std::string& type) {
+        auto [known, isNew] = providers.try_emplace({kind, type});
+        if (isNew) known->second = catalog_.provider(kind, type);
+        const std::string& provider = known->second;
+        const std::size_t space = provider.find(' ');
+        if (space == std::string::npos) return;
+        PluginUse& use = uses[provider.substr(0, space)];
+        use.id = provider.substr(0, space), use.version = provider.substr(space + 1);
+        ++use.count;
+    };
+    for (const Scene* scene : scenes())
+        scene->root().walk([&](const Item& item) {
+            if (!builtInItemType(item.type())) count(ContributionKind::ItemType, item.type());
+            for (const EffectInstance& effect : item.effects()) count(ContributionKind::Effect, effect.type);
+        });
+    // A plugin that is not installed cannot be counted: what the file said of it stays.
+    for (const PluginUse& recorded : recordedUses_)
+        if (!uses.contains(recorded.id)) uses.emplace(recorded.id, recorded);
+    std::vector<PluginUse> list;
+    for (auto& [id, use] : uses) list.push_back(std::move(use));
+    return list;
+}
+
+std::uint64_t Project::hash() const
+{
+    Hasher h;
+    h.add(std::string_view(name_));
+    const auto add = [&h](const auto& self, const Filter& filter) -> void {
+        h.add(std::string_view(filter.name));
+        for (const auto& scene : filter.scenes) h.add(std::string_view(scene->name())), h.add(scene->hash());
+        for (const auto& child : filter.filters) self(self, *child);
+    };
+    add(add, root_);
+    return h.value();
+}
+
+}  // namespace jet

@@ -1,0 +1,139 @@
+#include "xml_text.hpp"
+
+#include <jet/catalog.hpp>
+#include <jet/project.hpp>
+
+#include <set>
+
+namespace jet {
+
+namespace fs = std::filesystem;
+
+class ProjectReader {
+public:
+    ProjectReader(XmlSource& source, Project& project, const Progress& progress)
+        : source_(source), project_(project), progress_(progress)
+    {
+    }
+
+    void read()
+    {
+        const pugi::xml_node root = source_.document.document_element();
+        if (std::string_view(root.name()) != "jet-project")
+            source_.fail(root, "a project file starts with <jet-project>, this one with <" + std::string(root.name()) + ">");
+        if (source_.required(root, "version") != "1")
+            source_.fail(root, "this project has format version " + std::string(root.attribute("version").value()) +
+                                   "; this JET reads version 1: open it with a newer JET");
+        project_.name_ = source_.required(root, "name");
+        bool found = false;
+        for (const pugi::xml_node child : root.children()) {
+            const std::string_view name = child.name();
+            if (name == "plugins") {
+                readPlugins(child);
+            } else if (name == "filter") {
+                if (found) source_.fail(child, "a project has one top <filter>; put this one inside it");
+                readFilter(child, project_.root_, 0);
+                found = true;
+            } else {
+                source_.fail(child, "<" + std::string(name) + "> is not known here; a project holds <plugins> and <filter>");
+            }
+        }
+        if (!found) source_.fail(root, "the project has no <filter>; add <filter name=\"Filter0\"> with its scenes");
+    }
+
+private:
+    void readPlugins(const pugi::xml_node& node)
+    {
+        for (const pugi::xml_node child : node.children("plugin"))
+            project_.recordedUses_.push_back({std::string(source_.required(child, "id")),
+                                              std::string(source_.required(child, "version")),
+                                              child.attribute("uses").as_int()});
+    }
+
+    void readFilter(const pugi::xml_node& node, Filter& filter, int depth)
+    {
+        if (depth > 100) source_.fail(node, "filters are nested more than 100 deep");
+        filter.name = source_.required(node, "name");
+        for (const pugi::xml_node child : node.children()) {
+            const std::string_view name = child.name();
+            if (name == "scene") {
+                readScene(child, filter);
+            } else if (name == "filter") {
+                filter.filters.push_back(std::make_unique<Filter>());
+                readFilter(child, *filter.filters.back(), depth + 1);
+            } else {
+                source_.fail(child, "<" + std::string(name) + "> is not known here; a filter holds <scene> and <filter>");
+            }
+        }
+    }
+
+    void readScene(const pugi::xml_node& node, Filter& filter)
+    {
+        const std::string name(source_.required(node, "name"));
+        const std::string relative(source_.required(node, "file"));
+        const fs::path inside = fs::path(relative).lexically_normal();
+        if (inside.is_absolute() || inside.begin() == inside.end() || *inside.begin() == "..")
+            source_.fail(node, "the scene file '" + relative + "' lies outside the project's folder; keep scenes inside it");
+        if (!names_.insert(name).second) source_.fail(node, "there are two scenes called '" + name + "'; rename one");
+        if (!files_.insert(inside).second) source_.fail(node, "two scenes share the file '" + relative + "'");
+        const fs::path file = project_.file_.parent_path() / inside;
+        if (!fs::exists(file))
+            source_.fail(node, "the scene file '" + relative + "' is missing; restore it, or remove this line to go on without '" +
+                                   name + "'");
+        auto text = readFile(file);
+        if (!text) throw Failure(text.error());
+        auto scene = readSceneText(std::move(*text), file.string(), project_.events_, project_.catalog_, project_.notes_);
+        if (!scene) throw Failure(scene.error());
+        (*scene)->setName(name);
+        (*scene)->undoRedo().markClean();
+        project_.sceneFiles_[scene->get()] = relative;
+        filter.scenes.push_back(std::move(*scene));
+        if (!progress_(0.0)) throw Failure(Error("opening the project was cancelled"));
+    }
+
+    XmlSource& source_;
+    Project& project_;
+    const Progress& progress_;
+    std::set<std::string> names_;
+    std::set<fs::path> files_;
+};
+
+namespace {
+
+Result<fs::path> projectFile(const fs::path& path)
+{
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) return path;
+    if (fs::exists(path / "project.jet", ignored)) return path / "project.jet";
+    std::vector<fs::path> candidates;
+    for (const auto& entry : fs::directory_iterator(path, ignored))
+        if (entry.path().extension() == ".jet") candidates.push_back(entry.path());
+    if (candidates.size() == 1) return candidates.front();
+    return Error(candidates.empty() ? "there is no project in this folder: project.jet is missing"
+                                    : "there are several projects in this folder; name one of its .jet files",
+                 Location{path.string(), 0, 0});
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Project>> Project::load(const fs::path& path, EventsCenter& events, Catalog& catalog,
+                                               const Progress& progress)
+{
+    const auto file = projectFile(path);
+    if (!file) return file.error();
+    auto text = readFile(*file);
+    if (!text) return text.error();
+    XmlSource source(file->string(), std::move(*text));
+    if (const auto parsed = source.parse(); !parsed) return parsed.error();
+    std::unique_ptr<Project> project(new Project(events, catalog));
+    project->file_ = *file;
+    try {
+        ProjectReader(source, *project, progress).read();
+    } catch (const Failure& failure) {
+        return failure.error();
+    }
+    project->structureChanged_ = false;
+    return project;
+}
+
+}  // namespace jet

@@ -1,0 +1,64 @@
+#include "scene_state.hpp"
+
+#include <jet/scene_painter.hpp>
+
+#include <algorithm>
+
+namespace jet {
+
+namespace {
+
+void paintPlaceholder(const Path& path, PaintPurpose purpose, Painter& painter)
+{
+    if (purpose != PaintPurpose::Edit || path.isEmpty()) return;
+    Pen pen;
+    pen.color = Color{200, 0, 120, 255};
+    pen.width = 1.5;
+    pen.cosmetic = true;
+    pen.dashes = {6, 4};
+    painter.stroke(path, pen);
+}
+
+void paintTree(const Scene& scene, const Item& item, const PoseSource* poses, PaintPurpose purpose, const Box& clip,
+               Painter& painter)
+{
+    if (!item.visible()) return;
+    const Path* pose = poses ? poses->pose(item) : nullptr;
+    if (!item.path().isEmpty()) {
+        const Path& path = pose ? *pose : item.path();
+        // Strokes reach beyond the path's own bounds; a generous margin costs less than a missing edge.
+        const Box box = path.bounds();
+        const double margin = 0.25 * std::max(box.width(), box.height()) + 32;
+        if (clip.intersects(box.inflated(margin))) paintItem(scene, item, path, purpose, painter);
+    }
+    for (const auto& child : item.children()) paintTree(scene, *child, poses, purpose, clip, painter);
+}
+
+}  // namespace
+
+void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurpose purpose, Painter& painter)
+{
+    for (const EffectInstance& instance : item.effects()) {
+        if (!instance.visible) continue;
+        const Effect* effect = scene.catalog().effect(instance.type);
+        if (!effect) {
+            paintPlaceholder(path, purpose, painter);
+            continue;
+        }
+        const EffectInput input{item, path, instance.properties, effect->properties()};
+        const std::unique_ptr<EffectState> state = purpose == PaintPurpose::Edit ? effect->update(input) : nullptr;
+        effect->paint(input, state.get(), purpose, painter);
+    }
+    if (const ItemType* type = itemTypeOf(scene.catalog(), item.type())) {
+        type->paint(item, path, purpose, painter);
+    } else {
+        paintPlaceholder(path, purpose, painter);
+    }
+}
+
+void paintScene(const Scene& scene, const PoseSource* poses, PaintPurpose purpose, const Box& clip, Painter& painter)
+{
+    paintTree(scene, scene.root(), poses, purpose, clip, painter);
+}
+
+}  // namespace jet

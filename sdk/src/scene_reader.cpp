@@ -1,0 +1,220 @@
+#include "scene_state.hpp"
+#include "xml_text.hpp"
+
+#include <jet/project.hpp>
+
+#include <charconv>
+#include <set>
+
+namespace jet {
+
+namespace {
+
+constexpr int kMaximumDepth = 1000;
+
+class SceneTextReader {
+public:
+    SceneTextReader(XmlSource& source, Scene& scene, Catalog& catalog, std::vector<FormatNote>& notes)
+        : source_(source), builder_(scene), scene_(scene), catalog_(catalog), notes_(notes)
+    {
+    }
+
+    void read()
+    {
+        const pugi::xml_node root = source_.document.document_element();
+        if (std::string_view(root.name()) != "scene")
+            source_.fail(root, "a scene file starts with <scene>, this one with <" + std::string(root.name()) + ">");
+        if (source_.required(root, "version") != "1")
+            source_.fail(root, "this scene has format version " + std::string(root.attribute("version").value()) +
+                                   "; this JET reads version 1: open it with a newer JET");
+        for (const pugi::xml_node child : root.children()) {
+            const std::string_view name = child.name();
+            if (name == "settings") {
+                readSettings(child);
+            } else if (name == "materials") {
+                readMaterials(child);
+            } else if (name == "item") {
+                readItem(child, builder_.root(), 1);
+            } else {
+                unexpected(child, "a scene holds <settings>, <materials> and <item>");
+            }
+        }
+    }
+
+private:
+    void unexpected(const pugi::xml_node& node, const char* instead)
+    {
+        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
+            if (std::string_view(node.value()).find_first_not_of(" \t\r\n") == std::string_view::npos) return;
+            source_.fail(node, std::string("stray text here; ") + instead);
+        }
+        source_.fail(node, "<" + std::string(node.name()) + "> is not known here; " + instead);
+    }
+
+    void readSettings(const pugi::xml_node& node)
+    {
+        for (const pugi::xml_node child : node.children("property")) {
+            auto [id, value] = readProperty(child, &Scene::settingsTable(), "a scene");
+            builder_.setSetting(id, std::move(value));
+        }
+    }
+
+    double number(const pugi::xml_node& node, const char* attribute, double minimum)
+    {
+        const auto value = Value::parse(ValueKind::Real, source_.required(node, attribute));
+        if (!value) source_.fail(node, std::string(attribute) + ": " + value.error().message);
+        if ((*value).as<double>() < minimum) source_.fail(node, std::string(attribute) + " must not be negative");
+        return (*value).as<double>();
+    }
+
+    void readMaterials(const pugi::xml_node& node)
+    {
+        MaterialTable table;
+        bool first = true;
+        for (const pugi::xml_node child : node.children("material")) {
+            const std::string name(source_.required(child, "name"));
+            if (first) {
+                table = MaterialTable(name);
+                first = false;
+            } else if (table.find(name) >= 0) {
+                source_.fail(child, "there are two materials called '" + name + "'; rename one");
+            } else {
+                table.add(name);
+            }
+        }
+        const auto index = [&](const pugi::xml_node& pair, const char* attribute) {
+            const std::string name(source_.required(pair, attribute));
+            const int found = table.find(name);
+            if (found < 0) source_.fail(pair, "there is no material '" + name + "'; declare it with <material name=\"...\"/>");
+            return static_cast<std::size_t>(found);
+        };
+        for (const pugi::xml_node child : node.children("pair"))
+            table.setPair(index(child, "a"), index(child, "b"),
+                          MaterialPair{number(child, "friction", 0), number(child, "restitution", 0),
+                                       source_.boolean(child, "collides", true)});
+        builder_.setMaterials(std::move(table));
+    }
+
+    std::pair<std::string, Value> readProperty(const pugi::xml_node& node, const PropertyTable* table, std::string_view owner)
+    {
+        std::string id(source_.required(node, "id"));
+        const char* text = node.text().get();
+        const PropertySpec* spec = table ? table->find(id) : nullptr;
+        // Without its plugin nobody knows the kind: the text is kept as it is. A property the plugin does not know is kept
+        // too (a newer version of it may have written it).
+        if (!spec) {
+            if (table) notes_.push_back({"'" + std::string(owner) + "' has no property '" + id + "'; its text is kept", source_.where(node)});
+            return {std::move(id), Value(RawText{text})};
+        }
+        auto value = Value::parse(spec->kind, text);
+        if (!value) source_.fail(node, "property '" + id + "': " + value.error().message);
+        if (const auto fits = spec->check(*value); !fits) source_.fail(node, fits.error().message);
+        return {std::move(id), std::move(*value)};
+    }
+
+    ItemId readId(const pugi::xml_node& node)
+    {
+        const std::string_view text = source_.required(node, "id");
+        std::uint64_t id = 0;
+        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
+        if (problem != std::errc() || end != text.data() + text.size() || id == 0 || id >= kRootId.value - 1)
+            source_.fail(node, "id=\"" + std::string(text) + "\" is not a whole number from 1 on");
+        if (const Item* other = scene_.items().find(ItemId{id}))
+            source_.fail(node, "the id " + std::string(text) + " is used twice, here and by '" + other->name() +
+                                   "' before; give one of them a number that is free");
+        return ItemId{id};
+    }
+
+    void readItem(const pugi::xml_node& node, Item& parent, int depth)
+    {
+        if (depth > kMaximumDepth) source_.fail(node, "items are nested more than 1000 deep; flatten the groups");
+        if (!parent.isContainer() && itemTypeOf(catalog_, parent.type()))
+            source_.fail(node, "an item of type '" + parent.type() + "' cannot hold other items; move this one into a group");
+        source_.onlyAttributes(node, {"type", "id", "name", "visible", "locked"});
+        const std::string type(source_.required(node, "type"));
+        const ItemId id = readId(node);
+        const PropertyTable* table = itemTable(catalog_, type);
+        if (!table) noteMissing(node, ContributionKind::ItemType, type);
+        Item& item = builder_.add(parent, id, type);
+        builder_.setName(item, std::string(source_.required(node, "name")));
+        builder_.setFlags(item, source_.boolean(node, "visible", true), source_.boolean(node, "locked", false));
+        Properties properties;
+        for (const pugi::xml_node child : node.children()) {
+            const std::string_view name = child.name();
+            if (name == "path") {
+                readPath(child, item);
+            } else if (name == "property") {
+                auto [key, value] = readProperty(child, table, type);
+                properties.set(key, std::move(value));
+            } else if (name == "effect") {
+                readEffect(child, item);
+            } else if (name == "item") {
+                readItem(child, item, depth + 1);
+            } else {
+                unexpected(child, "an item holds <path>, <property>, <effect> and <item>");
+            }
+        }
+        builder_.setProperties(item, std::move(properties));
+    }
+
+    void readPath(const pugi::xml_node& node, Item& item)
+    {
+        auto path = Path::parse(node.text().get());
+        if (!path) {
+            Location where = source_.where(node.first_child() ? node.first_child() : node);
+            where.column += std::max(0, path.error().where.column - 1);
+            throw Failure(Error("the path of '" + item.name() + "': " + path.error().message, where));
+        }
+        builder_.setPath(item, std::move(*path));
+    }
+
+    void readEffect(const pugi::xml_node& node, Item& item)
+    {
+        source_.onlyAttributes(node, {"type", "visible"});
+        EffectInstance effect;
+        effect.type = source_.required(node, "type");
+        effect.visible = source_.boolean(node, "visible", true);
+        const Effect* known = catalog_.effect(effect.type);
+        if (!known) noteMissing(node, ContributionKind::Effect, effect.type);
+        for (const pugi::xml_node child : node.children()) {
+            if (std::string_view(child.name()) != "property") {
+                unexpected(child, "an effect holds <property>");
+                continue;
+            }
+            auto [key, value] = readProperty(child, known ? &known->properties() : nullptr, effect.type);
+            effect.properties.set(key, std::move(value));
+        }
+        builder_.addEffect(item, std::move(effect));
+    }
+
+    void noteMissing(const pugi::xml_node& node, ContributionKind kind, const std::string& id)
+    {
+        if (!noted_.insert(std::string(kindName(kind)) + id).second) return;
+        notes_.push_back({catalog_.explain(kind, id) + " What it wrote is kept.", source_.where(node)});
+    }
+
+    XmlSource& source_;
+    SceneBuilder builder_;
+    Scene& scene_;
+    Catalog& catalog_;
+    std::vector<FormatNote>& notes_;
+    std::set<std::string> noted_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Scene>> readSceneText(std::string text, const std::string& file, EventsCenter& events,
+                                             Catalog& catalog, std::vector<FormatNote>& notes)
+{
+    XmlSource source(file, std::move(text));
+    if (const auto parsed = source.parse(); !parsed) return parsed.error();
+    auto scene = std::make_unique<Scene>("", events, catalog);
+    try {
+        SceneTextReader(source, *scene, catalog, notes).read();
+    } catch (const Failure& failure) {
+        return failure.error();
+    }
+    return scene;
+}
+
+}  // namespace jet

@@ -1,0 +1,77 @@
+// What ItemsCenter keeps, shared by items_center.cpp, transaction.cpp and undo_redo.cpp.
+#pragma once
+
+#include "item_mutator.hpp"
+
+#include <jet/catalog.hpp>
+#include <jet/item_type.hpp>
+#include <jet/scene.hpp>
+
+#include <unordered_map>
+
+namespace jet {
+
+/// The id of every scene's top group; no other item has it.
+inline constexpr ItemId kRootId{~std::uint64_t{0}};
+
+struct OpenTransaction {
+    std::uint64_t serial = 0;
+    std::string label;
+    std::vector<Change> changes;
+    std::vector<ItemId> selectionBefore;
+    std::uint64_t nextIdBefore = 0;
+};
+
+struct ItemsCenter::Private {
+    Private(Scene& s, EventsCenter& e, Catalog& c);
+
+    Scene& scene;
+    EventsCenter& events;
+    Catalog& catalog;
+    std::unique_ptr<Item> root;
+    std::unordered_map<std::uint64_t, Item*> byId;
+    std::uint64_t nextId = 1;
+    std::vector<ItemId> selection;
+    std::uint64_t serial = 0;
+    std::optional<OpenTransaction> open;
+
+    Item& get(ItemId id);
+    void enlist(Item& subtree);
+    void delist(const Item& subtree);
+
+    /// Makes the change (again), or takes it back. Both directions use stored values only.
+    void apply(Change& change);
+    /// Makes the change and records it in the open transaction.
+    void make(Change change);
+    void revert(Change& change);
+    void revertAll();
+    /// Takes back the open transaction's changes after the first `count`.
+    void revertTo(std::size_t count);
+    void insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item);
+    std::unique_ptr<Item> take(ItemId id);
+
+    void setSelection(std::vector<ItemId> items);
+    void notifyTouched();
+    void notifyChanged(std::span<const Change> changes, ItemsChanged::Cause cause);
+};
+
+struct UndoStep {
+    std::string label, mergeKey;
+    std::vector<Change> changes;
+    std::vector<ItemId> selectionBefore, selectionAfter;
+};
+
+struct UndoRedoCenter::Private {
+    ItemsCenter* items = nullptr;
+    std::vector<UndoStep> steps;
+    std::size_t done = 0;
+    std::ptrdiff_t clean = 0;  // number of done steps at the saved state; -1: unreachable
+
+    void push(UndoStep step);
+};
+
+/// The item type's table, from the SDK or a plugin; null when its plugin is absent.
+const PropertyTable* itemTable(Catalog& catalog, std::string_view type);
+const ItemType* itemTypeOf(Catalog& catalog, std::string_view type);
+
+}  // namespace jet

@@ -1,0 +1,315 @@
+#include "hasher.hpp"
+#include "item_mutator.hpp"
+#include "world_builder.hpp"
+
+#include <jet/catalog.hpp>
+#include <jet/simulation.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace jet {
+
+namespace {
+constexpr std::size_t kMaximumOutput = 10'000;
+}
+
+struct Simulation::Private {
+    EventsCenter events;  // the copy's own: nobody listens
+    SimulationOptions options;
+    std::unique_ptr<Scene> scene;
+    std::unique_ptr<PhysicsWorld> world;
+    std::vector<BodyBinding> bodies;
+    std::unordered_map<std::uint64_t, std::size_t> bodyByItem;
+    std::map<ItemId, ActuatorHandle> actuators;
+    std::map<ItemId, double> torques;
+    std::unique_ptr<ScriptRuntime> scripts;
+
+    double timeStep = 1.0 / 60;
+    std::uint64_t steps = 0;
+    std::set<std::string, std::less<>> keys;
+    GameView view;
+    std::deque<OutputLine> output;
+    std::uint64_t printed = 0;
+    std::function<void(const OutputLine&)> onOutput;
+    std::function<void(ItemId, std::string_view, const Value&)> onProperty;
+    std::optional<std::string> requestedScene;
+    std::uint64_t random = 1;
+
+    mutable std::vector<Path> poses;  // by body handle; valid where posedAt equals steps + 1
+    mutable std::vector<std::uint64_t> posedAt;
+
+    std::size_t bindingOf(ItemId item) const
+    {
+        const auto found = bodyByItem.find(item.value);
+        return found == bodyByItem.end() ? bodies.size() : found->second;
+    }
+
+    Path posed(const BodyBinding& binding) const
+    {
+        const BodyStates states = world->bodies();
+        if (binding.soft) {
+            const std::uint32_t first = states.firstPoint[binding.body];
+            const std::uint32_t last = states.firstPoint[binding.body + 1];
+            return binding.skin.deformed(states.points.subspan(first, last - first));
+        }
+        const Affine motion = Affine::translation(states.position[binding.body]) *
+                              Affine::rotation(states.angle[binding.body]) * Affine::translation(-binding.restPosition);
+        return binding.restPath.transformed(motion);
+    }
+
+    // One event a pair of bodies and step: scripts ask for more through the contact itself.
+    void dispatchCollisions()
+    {
+        if (!scripts->listensTo(ScriptEventKind::BodyCollision)) return;
+        std::set<std::pair<BodyHandle, BodyHandle>> seen;
+        const std::vector<Contact> contacts(world->contacts().begin(), world->contacts().end());
+        for (const Contact& contact : contacts) {
+            if (!seen.insert(std::minmax(contact.bodyA, contact.bodyB)).second) continue;
+            ScriptEvent event{ScriptEventKind::BodyCollision, {}, {}, {}, {}, contact};
+            event.bodyA = bodies.at(contact.bodyA).item;
+            event.bodyB = bodies.at(contact.bodyB).item;
+            scripts->dispatch(event);
+        }
+    }
+};
+
+Simulation::Simulation() : d_(std::make_unique<Private>()) {}
+Simulation::~Simulation() { d_->scripts.reset(); }
+
+Result<std::unique_ptr<Simulation>> Simulation::start(const Scene& scene, SimulationOptions options)
+{
+    Catalog& catalog = scene.catalog();
+    std::string engineId = options.physics;
+    if (engineId.empty()) engineId = scene.setting("physics").as<std::string>();
+    PhysicsEngine* engine = catalog.physicsEngine(engineId);
+    if (!engine) return Error("the scene cannot be played: " + catalog.explain(ContributionKind::PhysicsEngine, engineId));
+
+    std::unique_ptr<Simulation> simulation(new Simulation);
+    auto& d = *simulation->d_;
+    d.options = std::move(options);
+    d.timeStep = d.options.timeStep.value_or(scene.setting("time-step").as<double>());
+    if (!(d.timeStep > 0)) return Error("the time step must be above 0 seconds");
+    d.random = d.options.seed;
+    d.view.size = d.options.viewSize;
+    // Until a script moves the camera, it stands as if the page's (or world's) origin were in the corner.
+    d.view.view = View{};
+    d.scene = scene.clone(d.events);
+    std::vector<OutputLine> messages;
+    try {
+        d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+        if (!d.world) return Error("the physics engine could not make a world for this scene");
+        SceneWorldBuilder builder(*d.scene, *d.world, messages);
+        builder.build();
+        d.bodies = std::move(builder.bodies);
+        d.actuators = std::move(builder.actuators);
+    } catch (const Failure& failure) {
+        return failure.error();
+    }
+    for (std::size_t i = 0; i < d.bodies.size(); ++i) d.bodyByItem[d.bodies[i].item.value] = i;
+    d.poses.resize(d.bodies.size());
+    d.posedAt.resize(d.bodies.size());
+    for (OutputLine& message : messages) simulation->print(std::move(message));
+
+    bool hasScripts = false;
+    d.scene->root().walk([&](const Item& item) { hasScripts = hasScripts || item.is<ScriptItem>(); });
+    if (!hasScripts) return simulation;
+    ScriptEngine* scripts = catalog.scriptEngine("");
+    if (!scripts) {
+        simulation->print({OutputLine::Kind::Error,
+                           "the scripts do not run: " + catalog.explain(ContributionKind::ScriptEngine, ""), {}, 0});
+        return simulation;
+    }
+    d.scripts = scripts->createRuntime(*simulation);
+    if (!d.scripts) return simulation;
+    d.scene->root().walk([&](const Item& item) {
+        if (!item.is<ScriptItem>()) return;
+        if (const auto ran = d.scripts->run(item); !ran)
+            simulation->print({OutputLine::Kind::Error, ran.error().message, item.id(), ran.error().where.line});
+    });
+    return simulation;
+}
+
+void Simulation::step()
+{
+    auto& d = *d_;
+    if (d.scripts) d.scripts->dispatch(ScriptEvent{ScriptEventKind::Step, {}, {}, {}, {}, {}});
+    d.world->step(d.timeStep);
+    ++d.steps;
+    if (d.scripts) d.dispatchCollisions();
+}
+
+std::uint64_t Simulation::stepCount() const { return d_->steps; }
+double Simulation::time() const { return static_cast<double>(d_->steps) * d_->timeStep; }
+double Simulation::timeStep() const { return d_->timeStep; }
+const Scene& Simulation::scene() const { return *d_->scene; }
+PhysicsWorld& Simulation::world() { return *d_->world; }
+const PhysicsWorld& Simulation::world() const { return *d_->world; }
+
+BodyHandle Simulation::bodyOf(ItemId item) const
+{
+    const std::size_t i = d_->bindingOf(item);
+    return i < d_->bodies.size() ? d_->bodies[i].body : kNoHandle;
+}
+
+ItemId Simulation::itemOf(BodyHandle body) const
+{
+    for (const BodyBinding& binding : d_->bodies)
+        if (binding.body == body) return binding.item;
+    return {};
+}
+
+ActuatorHandle Simulation::actuatorOf(ItemId item) const
+{
+    const auto found = d_->actuators.find(item);
+    return found == d_->actuators.end() ? kNoHandle : found->second;
+}
+
+const Path* Simulation::pose(const Item& item) const
+{
+    const std::size_t i = d_->bindingOf(item.id());
+    if (i >= d_->bodies.size() || d_->bodies[i].fixed) return nullptr;
+    if (d_->posedAt[i] != d_->steps + 1) {
+        d_->poses[i] = d_->posed(d_->bodies[i]);
+        d_->posedAt[i] = d_->steps + 1;
+    }
+    return &d_->poses[i];
+}
+
+void Simulation::setTorque(ItemId item, double value)
+{
+    d_->torques[item] = value;
+    const Item* found = d_->scene->items().find(item);
+    if (found && found->is<TorqueItem>() && actuatorOf(item) != kNoHandle) d_->world->setTorque(actuatorOf(item), -value);
+}
+
+double Simulation::torque(ItemId item) const
+{
+    if (const auto found = d_->torques.find(item); found != d_->torques.end()) return found->second;
+    const Item* torque = d_->scene->items().find(item);
+    const Value* value = torque ? torque->properties().find("value") : nullptr;
+    return value ? value->as<double>() : 0;
+}
+
+void Simulation::key(const KeyEvent& event, bool down)
+{
+    setKey(event.key, down);
+    if (!d_->scripts) return;
+    d_->scripts->dispatch(ScriptEvent{down ? ScriptEventKind::KeyDown : ScriptEventKind::KeyUp, event, {}, {}, {}, {}});
+    if (down && !event.text.empty()) d_->scripts->dispatch(ScriptEvent{ScriptEventKind::KeyTyped, event, {}, {}, {}, {}});
+}
+
+void Simulation::setKey(std::string_view key, bool down)
+{
+    if (down) {
+        d_->keys.emplace(key);
+    } else if (const auto found = d_->keys.find(key); found != d_->keys.end()) {
+        d_->keys.erase(found);
+    }
+}
+
+bool Simulation::isPressed(std::string_view key) const { return d_->keys.contains(key); }
+
+void Simulation::pointer(ScriptEventKind kind, const PointerEvent& event)
+{
+    if (d_->scripts) d_->scripts->dispatch(ScriptEvent{kind, {}, event, {}, {}, {}});
+}
+
+GameView& Simulation::view() { return d_->view; }
+const GameView& Simulation::view() const { return d_->view; }
+
+void Simulation::print(OutputLine line)
+{
+    ++d_->printed;
+    if (d_->onOutput) d_->onOutput(line);
+    d_->output.push_back(std::move(line));
+    if (d_->output.size() > kMaximumOutput) d_->output.pop_front();
+}
+
+const std::deque<OutputLine>& Simulation::output() const { return d_->output; }
+void Simulation::setOutputHandler(std::function<void(const OutputLine&)> handler) { d_->onOutput = std::move(handler); }
+void Simulation::requestScene(std::string name) { d_->requestedScene = std::move(name); }
+const std::optional<std::string>& Simulation::requestedScene() const { return d_->requestedScene; }
+
+const Scene* Simulation::sceneByName(std::string_view name) const
+{
+    if (name == d_->scene->name()) return d_->scene.get();
+    return d_->options.sceneByName ? d_->options.sceneByName(name) : nullptr;
+}
+
+double Simulation::random()
+{
+    // splitmix64: a full-period generator with one word of state (Steele, Lea, Flood 2014)
+    std::uint64_t z = (d_->random += 0x9e3779b97f4a7c15ULL);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+}
+
+void Simulation::setItemProperty(ItemId id, std::string_view property, Value value)
+{
+    const Item* item = d_->scene->items().find(id);
+    if (!item) throw Failure(Error("the item is not in the playing scene"));
+    if (property == "visible" || property == "locked") {
+        value = value.as<bool>();
+    } else if (property == "name") {
+        value = value.as<std::string>();
+    } else {
+        const ItemType* type = builtInItemType(item->type());
+        if (!type) type = d_->scene->catalog().itemType(item->type());
+        const PropertySpec* spec = type ? type->properties().find(property) : nullptr;
+        if (!spec) throw Failure(Error("'" + item->name() + "' has no property '" + std::string(property) + "'"));
+        if (spec->kind == ValueKind::Real && value.get<std::int64_t>()) value = value.as<double>();
+        spec->check(value).orThrow();
+    }
+    Item::Mutator::setProperty(const_cast<Item&>(*item), property, value);
+    if (d_->onProperty) d_->onProperty(id, property, value);
+}
+
+void Simulation::setPropertyHandler(std::function<void(ItemId, std::string_view, const Value&)> handler)
+{
+    d_->onProperty = std::move(handler);
+}
+
+std::uint64_t Simulation::hash() const
+{
+    Hasher h;
+    h.add(d_->world->hash());
+    h.add(d_->steps);
+    h.add(d_->view.view.anchor);
+    h.add(d_->view.view.scale);
+    h.add(d_->random);
+    h.add(d_->printed);
+    for (const auto& [item, value] : d_->torques) h.add(item.value), h.add(value);
+    return h.value();
+}
+
+std::string Simulation::stateJson() const
+{
+    using Json = nlohmann::ordered_json;
+    const auto pair = [](const Vec2& v) { return Json::array({v.x(), v.y()}); };
+    char hashText[17];
+    std::snprintf(hashText, sizeof hashText, "%016llx", static_cast<unsigned long long>(hash()));
+    Json state{{"step", d_->steps}, {"time", time()}, {"hash", hashText}, {"items", Json::array()}, {"output", Json::array()}};
+    const BodyStates bodies = d_->world->bodies();
+    d_->scene->root().walk([&](const Item& item) {
+        const BodyHandle body = bodyOf(item.id());
+        const Box box = body != kNoHandle ? bodies.bounds[body] : item.bounds();
+        if (box.isNull()) return;
+        const bool moves = body != kNoHandle;
+        state["items"].push_back(Json{{"id", item.id().value},
+                                      {"name", item.name()},
+                                      {"type", item.type()},
+                                      {"position", pair(moves ? bodies.position[body] : box.center())},
+                                      {"angle", moves ? bodies.angle[body] : 0.0},
+                                      {"velocity", pair(moves ? bodies.velocity[body] : Vec2(0, 0))},
+                                      {"omega", moves ? bodies.omega[body] : 0.0},
+                                      {"bounds", Json::array({box.min.x(), box.min.y(), box.max.x(), box.max.y()})}});
+    });
+    state["view"] = Json{{"anchor", pair(d_->view.view.anchor)}, {"scale", d_->view.view.scale}, {"size", pair(d_->view.size)}};
+    for (const OutputLine& line : d_->output) state["output"].push_back(line.text);
+    return state.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace jet

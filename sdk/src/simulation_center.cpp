@@ -1,0 +1,262 @@
+// Plays on a thread of its own. Commands go in through a queue; immutable frames come out behind a mutex held for a pointer
+// swap only. The catalog and the edited scene are used on the owner's thread alone.
+#include "item_mutator.hpp"
+
+#include <jet/simulation.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace jet {
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+constexpr int kMaximumCatchUp = 4;  // steps made up for at once before the game slows down instead
+}
+
+struct SimulationCenter::Private {
+    explicit Private(EventsCenter& e) : events(e) {}
+
+    EventsCenter& events;
+    const Scene* scene = nullptr;
+    std::unique_ptr<Scene> display;
+    SimulationOptions options;
+    State state = State::Stopped;
+    std::thread thread;
+    std::shared_ptr<int> life = std::make_shared<int>();  // queued tasks of an ended run see it expired
+
+    // Shared with the simulation's thread.
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::deque<std::function<void(Simulation&)>> commands;
+    bool paused = false, quit = false;
+    int singleSteps = 0;
+    double speed = 1;
+    std::shared_ptr<const SimulationFrame> frame;
+    std::atomic<bool> framePending{false};
+
+    template <class Task>
+    void onOwner(Task task)
+    {
+        events.enqueue([alive = std::weak_ptr<int>(life), task = std::move(task)] {
+            if (!alive.expired()) task();
+        });
+    }
+
+    void send(std::function<void(Simulation&)> command)
+    {
+        const std::lock_guard lock(mutex);
+        commands.push_back(std::move(command));
+        wake.notify_one();
+    }
+
+    void publish(Simulation& simulation, double stepMs)
+    {
+        auto next = std::make_shared<SimulationFrame>();
+        next->step = simulation.stepCount();
+        next->time = simulation.time();
+        next->stepMs = stepMs;
+        next->view = simulation.view();
+        simulation.scene().root().walk([&](const Item& item) {
+            if (const Path* pose = simulation.pose(item)) next->poses.emplace_back(item.id(), *pose);
+        });
+        std::sort(next->poses.begin(), next->poses.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        {
+            const std::lock_guard lock(mutex);
+            frame = std::move(next);
+        }
+        if (!framePending.exchange(true))
+            onOwner([this] {
+                framePending = false;
+                events.post(this, SimulationFrameReady{});
+            });
+    }
+
+    void run(std::unique_ptr<Simulation> simulation)
+    {
+        const auto dt = std::chrono::duration<double>(simulation->timeStep());
+        auto next = Clock::now();
+        publish(*simulation, 0);
+        for (;;) {
+            bool stepNow = false;
+            {
+                std::unique_lock lock(mutex);
+                const auto ready = [&] { return quit || !commands.empty() || singleSteps > 0; };
+                if (paused && !ready()) wake.wait(lock, [&] { return ready() || !paused; });
+                if (!paused) wake.wait_until(lock, next, ready);
+                if (quit) return;
+                auto waiting = std::exchange(commands, {});
+                if (singleSteps > 0) {
+                    --singleSteps;
+                    stepNow = true;
+                }
+                const double pace = speed;
+                const bool playing = !paused;
+                lock.unlock();
+                for (auto& command : waiting) command(*simulation);
+                const auto now = Clock::now();
+                if (playing && now >= next) {
+                    stepNow = true;
+                    next += std::chrono::duration_cast<Clock::duration>(dt / pace);
+                    if (now - next > dt * kMaximumCatchUp / pace) next = now;
+                } else if (!playing) {
+                    next = now;
+                }
+            }
+            if (!stepNow) continue;
+            const auto before = Clock::now();
+            simulation->step();
+            publish(*simulation, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
+            if (simulation->requestedScene()) {
+                onOwner([this, name = *simulation->requestedScene()] { goTo(name); });
+                return;
+            }
+        }
+    }
+
+    void end()
+    {
+        {
+            const std::lock_guard lock(mutex);
+            quit = true;
+            wake.notify_one();
+        }
+        if (thread.joinable()) thread.join();
+        life = std::make_shared<int>();
+        const std::lock_guard lock(mutex);
+        commands.clear();
+        quit = paused = false;
+        singleSteps = 0;
+        framePending = false;
+    }
+
+    void setState(State next)
+    {
+        if (state == next) return;
+        state = next;
+        events.post(nullptr, SimulationStateChanged{next});
+    }
+
+    // A script asked for another scene.
+    void goTo(const std::string& name)
+    {
+        const Scene* target = options.sceneByName ? options.sceneByName(name) : nullptr;
+        if (!target) {
+            events.post(nullptr, OutputPrinted{{OutputLine::Kind::Error, "there is no scene '" + name + "' to go to", {}, 0}});
+            return;
+        }
+        const auto kept = options;
+        end();
+        if (const auto begun = begin(*target, kept); !begun)
+            events.post(nullptr, OutputPrinted{{OutputLine::Kind::Error, begun.error().message, {}, 0}});
+    }
+
+    Result<void> begin(const Scene& playing, SimulationOptions with)
+    {
+        options = std::move(with);
+        auto simulation = Simulation::start(playing, options);
+        if (!simulation) return simulation.error();
+        scene = &playing;
+        display = playing.clone(events);
+        for (const OutputLine& line : (*simulation)->output()) events.post(nullptr, OutputPrinted{line});
+        (*simulation)->setOutputHandler(
+            [this](const OutputLine& line) { onOwner([this, line] { events.post(nullptr, OutputPrinted{line}); }); });
+        (*simulation)->setPropertyHandler([this](ItemId item, std::string_view property, const Value& value) {
+            onOwner([this, item, property = std::string(property), value] {
+                if (const Item* found = display ? display->items().find(item) : nullptr)
+                    Item::Mutator::setProperty(const_cast<Item&>(*found), property, value);
+            });
+        });
+        thread = std::thread([this, s = std::move(*simulation)]() mutable { run(std::move(s)); });
+        return {};
+    }
+};
+
+SimulationCenter::SimulationCenter(EventsCenter& events) : d_(std::make_unique<Private>(events)) {}
+SimulationCenter::~SimulationCenter() { d_->end(); }
+
+Result<void> SimulationCenter::play(const Scene& scene, SimulationOptions options)
+{
+    stop();
+    if (auto begun = d_->begin(scene, std::move(options)); !begun) return begun;
+    d_->setState(State::Playing);
+    return {};
+}
+
+void SimulationCenter::pause()
+{
+    if (d_->state != State::Playing) return;
+    {
+        const std::lock_guard lock(d_->mutex);
+        d_->paused = true;
+    }
+    d_->setState(State::Paused);
+}
+
+void SimulationCenter::resume()
+{
+    if (d_->state != State::Paused) return;
+    {
+        const std::lock_guard lock(d_->mutex);
+        d_->paused = false;
+        d_->wake.notify_one();
+    }
+    d_->setState(State::Playing);
+}
+
+void SimulationCenter::singleStep()
+{
+    if (d_->state == State::Playing) pause();
+    const std::lock_guard lock(d_->mutex);
+    ++d_->singleSteps;
+    d_->wake.notify_one();
+}
+
+void SimulationCenter::stop()
+{
+    if (d_->state == State::Stopped) return;
+    d_->end();
+    d_->scene = nullptr;
+    d_->display.reset();
+    d_->frame.reset();
+    d_->setState(State::Stopped);
+}
+
+SimulationCenter::State SimulationCenter::state() const { return d_->state; }
+const Scene* SimulationCenter::scene() const { return d_->scene; }
+const Scene* SimulationCenter::runningScene() const { return d_->display.get(); }
+
+void SimulationCenter::setSpeed(double factor)
+{
+    const std::lock_guard lock(d_->mutex);
+    d_->speed = std::clamp(factor, 0.01, 100.0);
+}
+
+std::shared_ptr<const SimulationFrame> SimulationCenter::frame() const
+{
+    const std::lock_guard lock(d_->mutex);
+    return d_->frame;
+}
+
+void SimulationCenter::key(const KeyEvent& event, bool down)
+{
+    d_->send([event, down](Simulation& simulation) { simulation.key(event, down); });
+}
+
+void SimulationCenter::pointer(ScriptEventKind kind, const PointerEvent& event)
+{
+    d_->send([kind, event](Simulation& simulation) { simulation.pointer(kind, event); });
+}
+
+void SimulationCenter::setViewSize(const Vec2& pixels)
+{
+    d_->options.viewSize = pixels;
+    d_->send([pixels](Simulation& simulation) { simulation.view().size = pixels; });
+}
+
+}  // namespace jet

@@ -1,0 +1,319 @@
+#include "scene_state.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace jet {
+
+namespace {
+
+[[noreturn]] void fail(std::string message) { throw Failure(Error(std::move(message))); }
+
+bool isCommon(std::string_view property) { return property == "name" || property == "visible" || property == "locked"; }
+
+void checkPath(const Path& path)
+{
+    if (!path.isFinite()) fail("a path with a coordinate that is not a number cannot be stored");
+}
+
+void checkValue(const PropertySpec* spec, std::string_view owner, std::string_view property, const Value& value)
+{
+    if (!spec) fail("'" + std::string(owner) + "' has no property '" + std::string(property) + "'");
+    if (!value.isNone()) spec->check(value).orThrow();
+}
+
+// All of the table's properties: given values where there are some, else the defaults.
+Properties completed(const PropertyTable& table, Properties given, std::string_view owner)
+{
+    Properties all;
+    for (const auto& [id, value] : given.entries()) {
+        const PropertySpec* spec = table.find(id);
+        checkValue(spec, owner, id, value);
+        // an integer given for a real is stored as a real, so that it reads back as the same bytes
+        all.set(id, spec->kind == ValueKind::Real ? Value(value.as<double>()) : value);
+    }
+    for (const PropertySpec& spec : table.specs())
+        if (!all.find(spec.id)) all.set(spec.id, spec.fallback);
+    return all;
+}
+
+Value normalized(const PropertySpec& spec, Value value)
+{
+    if (spec.kind == ValueKind::Real && value.get<std::int64_t>()) return Value(value.as<double>());
+    return value;
+}
+
+}  // namespace
+
+Transaction::Transaction(Transaction&& other) noexcept
+    : center_(std::exchange(other.center_, nullptr)), serial_(other.serial_)
+{
+}
+
+Transaction::~Transaction() { rollback(); }
+
+bool Transaction::isOpen() const { return center_ && center_->d_->open && center_->d_->open->serial == serial_; }
+bool Transaction::isEmpty() const { return !isOpen() || center_->d_->open->changes.empty(); }
+
+ItemsCenter& Transaction::open() const
+{
+    if (!isOpen()) fail("the transaction is no longer open");
+    return *center_;
+}
+
+const Item& Transaction::add(std::string_view type, const Item& parent, Path path, std::optional<std::size_t> index)
+{
+    auto& d = *open().d_;
+    const PropertyTable* table = itemTable(d.catalog, type);
+    if (!table) fail(d.catalog.explain(ContributionKind::ItemType, type));
+    if (!parent.isContainer()) fail("'" + parent.name() + "' is not a group or layer; items go into groups and layers");
+    checkPath(path);
+    auto item = std::make_unique<Item>(ItemId{d.nextId}, type);
+    Item::Mutator::setName(*item, itemTypeOf(d.catalog, type)->label() + " " + std::to_string(d.nextId));
+    Item::Mutator::setPath(*item, std::move(path));
+    Item::Mutator::setProperties(*item, completed(*table, {}, type));
+    const Item& added = *item;
+    const std::size_t count = parent.children().size();
+    d.make(ItemAdded{item->id(), parent.id(), std::min(index.value_or(count), count), std::move(item)});
+    return added;
+}
+
+namespace {
+
+using IdMap = std::map<std::uint64_t, ItemId>;
+
+std::unique_ptr<Item> deepCopy(const Item& source, std::uint64_t& nextId, IdMap& ids)
+{
+    const ItemId id{nextId++};
+    ids.emplace(source.id().value, id);
+    auto copy = Item::Mutator::copyAlone(source, id);
+    for (const auto& child : source.children())
+        Item::Mutator::insert(*copy, copy->children().size(), deepCopy(*child, nextId, ids));
+    return copy;
+}
+
+Properties redirected(const Properties& properties, const IdMap& ids)
+{
+    Properties result = properties;
+    for (const auto& [id, value] : properties.entries()) {
+        const ItemId* reference = value.get<ItemId>();
+        const auto found = reference ? ids.find(reference->value) : ids.end();
+        if (found != ids.end()) result.set(id, found->second);
+    }
+    return result;
+}
+
+// References between items of the copied subtree lead to the copies.
+void redirectReferences(Item& copy, const IdMap& ids)
+{
+    Item::Mutator::setProperties(copy, redirected(copy.properties(), ids));
+    for (EffectInstance& effect : Item::Mutator::effects(copy)) effect.properties = redirected(effect.properties, ids);
+    for (std::size_t i = 0; i < copy.children().size(); ++i) redirectReferences(*Item::Mutator::child(copy, i), ids);
+}
+
+}  // namespace
+
+const Item& Transaction::addCopy(const Item& source, const Item& parent, std::optional<std::size_t> index)
+{
+    auto& d = *open().d_;
+    if (!parent.isContainer()) fail("'" + parent.name() + "' is not a group or layer; items go into groups and layers");
+    IdMap ids;
+    auto copy = deepCopy(source, d.nextId, ids);
+    redirectReferences(*copy, ids);
+    const Item& added = *copy;
+    const std::size_t count = parent.children().size();
+    d.make(ItemAdded{copy->id(), parent.id(), std::min(index.value_or(count), count), std::move(copy)});
+    return added;
+}
+
+void Transaction::remove(const Item& item)
+{
+    auto& d = *open().d_;
+    if (!item.parent()) fail("the top group of a scene cannot be removed");
+    d.make(ItemRemoved{item.id(), item.parent()->id(), item.index(), nullptr});
+}
+
+void Transaction::move(const Item& item, const Item& newParent, std::size_t index)
+{
+    auto& d = *open().d_;
+    if (!item.parent()) fail("the top group of a scene cannot be moved");
+    if (!newParent.isContainer()) fail("'" + newParent.name() + "' is not a group or layer; items go into groups and layers");
+    if (&item == &newParent || item.isAncestorOf(newParent)) fail("'" + item.name() + "' cannot be moved into itself");
+    const std::size_t room = newParent.children().size() - (item.parent() == &newParent ? 1 : 0);
+    const ItemMoved change{item.id(), item.parent()->id(), newParent.id(), item.index(), std::min(index, room)};
+    if (change.oldParent == change.newParent && change.oldIndex == change.newIndex) return;
+    d.make(change);
+}
+
+void Transaction::set(const Item& item, std::string_view property, Value value)
+{
+    auto& d = *open().d_;
+    if (property == "name") {
+        if (!value.get<std::string>()) fail("a name is a text");
+    } else if (isCommon(property)) {
+        if (!value.get<bool>()) fail("'" + std::string(property) + "' is true or false");
+    } else {
+        const PropertyTable* table = itemTable(d.catalog, item.type());
+        if (!table) fail(d.catalog.explain(ContributionKind::ItemType, item.type()));
+        const PropertySpec* spec = table->find(property);
+        checkValue(spec, item.type(), property, value);
+        value = normalized(*spec, std::move(value));
+    }
+    Value before = item.property(property).value_or(Value());
+    if (before == value) return;
+    d.make(PropertyChanged{item.id(), std::string(property), std::move(before), std::move(value)});
+}
+
+void Transaction::setPath(const Item& item, Path path)
+{
+    auto& d = *open().d_;
+    checkPath(path);
+    if (item.path() == path) return;
+    d.make(PathChanged{item.id(), item.path(), std::move(path)});
+}
+
+void Transaction::transform(const Item& item, const Affine& m)
+{
+    if (m.isIdentity()) return;
+    if (!item.path().isEmpty()) setPath(item, item.path().transformed(m));
+    for (const auto& child : item.children()) transform(*child, m);
+}
+
+void Transaction::transform(const Item& item, const Affine& m, std::span<const std::size_t> segments)
+{
+    Path path = item.path();
+    for (const std::size_t index : segments)
+        if (index >= path.segmentCount()) fail("the path has no segment " + std::to_string(index));
+    path.transform(m, segments);
+    setPath(item, std::move(path));
+}
+
+void Transaction::setType(const Item& item, std::string_view type)
+{
+    auto& d = *open().d_;
+    const PropertyTable* table = itemTable(d.catalog, type);
+    if (!table) fail(d.catalog.explain(ContributionKind::ItemType, type));
+    if (item.type() == type) return;
+    const Properties old = item.properties();
+    for (const auto& [id, value] : old.entries())
+        if (!table->find(id)) d.make(PropertyChanged{item.id(), id, value, Value()});
+    d.make(TypeChanged{item.id(), item.type(), std::string(type)});
+    for (const PropertySpec& spec : table->specs())
+        if (!item.properties().find(spec.id)) d.make(PropertyChanged{item.id(), spec.id, Value(), spec.fallback});
+}
+
+std::size_t Transaction::addEffect(const Item& item, std::string_view effect, Properties properties)
+{
+    auto& d = *open().d_;
+    const Effect* found = d.catalog.effect(effect);
+    if (!found) fail(d.catalog.explain(ContributionKind::Effect, effect));
+    if (const std::string reason = found->rejects(item); !reason.empty()) fail(reason);
+    const std::size_t index = item.effects().size();
+    const std::size_t before = d.open->changes.size();
+    d.make(EffectAdded{item.id(), index,
+                       EffectInstance{std::string(effect), completed(found->properties(), std::move(properties), effect), true}});
+    try {
+        found->applied(*this, item);
+    } catch (...) {
+        if (isOpen()) d.revertTo(before);
+        throw;
+    }
+    return index;
+}
+
+namespace {
+
+const EffectInstance& effectAt(const Item& item, std::size_t index)
+{
+    if (index >= item.effects().size()) fail("'" + item.name() + "' has no effect number " + std::to_string(index));
+    return item.effects()[index];
+}
+
+}  // namespace
+
+void Transaction::removeEffect(const Item& item, std::size_t index)
+{
+    auto& d = *open().d_;
+    d.make(EffectRemoved{item.id(), index, effectAt(item, index)});
+}
+
+void Transaction::moveEffect(const Item& item, std::size_t from, std::size_t to)
+{
+    auto& d = *open().d_;
+    effectAt(item, from), effectAt(item, to);
+    if (from != to) d.make(EffectMoved{item.id(), from, to});
+}
+
+void Transaction::setEffect(const Item& item, std::size_t index, std::string_view property, Value value)
+{
+    auto& d = *open().d_;
+    const EffectInstance& effect = effectAt(item, index);
+    Value before;
+    if (property == "visible") {
+        if (!value.get<bool>()) fail("'visible' is true or false");
+        before = effect.visible;
+    } else {
+        const Effect* found = d.catalog.effect(effect.type);
+        if (!found) fail(d.catalog.explain(ContributionKind::Effect, effect.type));
+        const PropertySpec* spec = found->properties().find(property);
+        checkValue(spec, effect.type, property, value);
+        value = normalized(*spec, std::move(value));
+        if (const Value* stored = effect.properties.find(property)) before = *stored;
+    }
+    if (before == value) return;
+    d.make(EffectPropertyChanged{item.id(), index, std::string(property), std::move(before), std::move(value)});
+}
+
+void Transaction::setScene(std::string_view property, Value value)
+{
+    auto& d = *open().d_;
+    const PropertySpec* spec = Scene::settingsTable().find(property);
+    checkValue(spec, "scene", property, value);
+    value = normalized(*spec, std::move(value));
+    const Value* stored = d.scene.settings().find(property);
+    Value before = stored ? *stored : Value();
+    if (before == value) return;
+    d.make(ScenePropertyChanged{std::string(property), std::move(before), std::move(value)});
+}
+
+void Transaction::setMaterials(MaterialTable materials)
+{
+    auto& d = *open().d_;
+    if (d.scene.materials() == materials) return;
+    d.make(MaterialsChanged{d.scene.materials(), std::move(materials)});
+}
+
+void Transaction::select(const Item& item) { setSelection({item.id()}); }
+void Transaction::setSelection(std::vector<ItemId> items) { open().d_->setSelection(std::move(items)); }
+
+void Transaction::commit(std::string_view mergeKey)
+{
+    ItemsCenter& center = open();
+    auto& d = *center.d_;
+    center_ = nullptr;
+    OpenTransaction finished = std::move(*d.open);
+    d.open.reset();
+    if (finished.changes.empty()) return;
+    UndoStep step{std::move(finished.label), std::string(mergeKey), std::move(finished.changes),
+                  std::move(finished.selectionBefore), d.selection};
+    auto& history = *d.scene.undoRedo().d_;
+    const std::size_t count = step.changes.size();
+    history.push(std::move(step));
+    const auto& changes = history.steps.back().changes;
+    d.notifyChanged(std::span(changes).last(std::min(count, changes.size())), ItemsChanged::Cause::Commit);
+}
+
+void Transaction::rollback()
+{
+    if (isOpen()) center_->abandon();
+    center_ = nullptr;
+}
+
+void Transaction::restart()
+{
+    auto& d = *open().d_;
+    d.revertAll();
+    d.notifyTouched();
+}
+
+}  // namespace jet

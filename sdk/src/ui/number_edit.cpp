@@ -1,0 +1,113 @@
+#include "number_edit.hpp"
+
+#include <QFontMetrics>
+#include <QLineEdit>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jet::ui {
+
+NumberEdit::NumberEdit(const PropertySpec& spec, QWidget* parent)
+    : QAbstractSpinBox(parent), whole_(spec.kind == ValueKind::Integer), minimum_(spec.minimum), maximum_(spec.maximum),
+      suffix_(spec.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(spec.unit))
+{
+    setFocusPolicy(Qt::StrongFocus);
+    setKeyboardTracking(false);
+    connect(this, &QAbstractSpinBox::editingFinished, this, [this] { finish(); });
+}
+
+void NumberEdit::setNumber(std::optional<double> number)
+{
+    number_ = number;
+    showNumber();
+}
+
+void NumberEdit::showNumber()
+{
+    const QSignalBlocker quiet(lineEdit());
+    lineEdit()->setText(number_ ? QString::fromStdString(numberText(*number_)) + suffix_ : QString());
+}
+
+std::optional<double> NumberEdit::read(const QString& text) const
+{
+    QString plain = text;
+    if (!suffix_.isEmpty() && plain.endsWith(suffix_)) plain.chop(suffix_.size());
+    plain.replace(QLatin1Char(','), QLatin1Char('.'));  // a decimal comma is what half of Europe types
+    const std::string bytes = plain.trimmed().toStdString();
+    std::string_view rest = bytes;
+    double number = 0;
+    if (!readNumber(rest, number) || !rest.empty()) return std::nullopt;
+    return whole_ ? std::round(number) : number;
+}
+
+QValidator::State NumberEdit::validate(QString& input, int&) const
+{
+    return read(input) ? QValidator::Acceptable : QValidator::Intermediate;
+}
+
+double NumberEdit::step() const
+{
+    // A tenth of the number's magnitude: 0.05 moves by 0.01, 320 by 10.
+    if (whole_) return 1;
+    const double size = std::abs(number_.value_or(0));
+    return size < 1e-9 ? 0.1 : std::pow(10, std::floor(std::log10(size) + 1e-9) - 1);
+}
+
+void NumberEdit::stepBy(int steps)
+{
+    const double unit = step();
+    const double moved = number_.value_or(0) + steps * unit;
+    accept(std::round(moved / unit) * unit, false);  // onto the raster of the step, so that 0.1 + 0.2 shows as 0.3
+}
+
+void NumberEdit::accept(double number, bool done)
+{
+    const double bounded = std::clamp(number, minimum_, maximum_);
+    // Shortest text and back: rounding noise of the step goes no further than the display.
+    number_ = done ? bounded : QByteArray::number(bounded, 'g', 12).toDouble();
+    spinning_ = !done;
+    showNumber();
+    if (handler_) handler_(*number_, done);
+}
+
+void NumberEdit::finish()
+{
+    const std::optional<double> entered = read(lineEdit()->text());
+    if (entered && (entered != number_ || spinning_)) return accept(*entered, true);
+    showNumber();
+}
+
+QAbstractSpinBox::StepEnabled NumberEdit::stepEnabled() const
+{
+    if (isReadOnly()) return StepNone;
+    StepEnabled steps = StepNone;
+    if (!number_ || *number_ < maximum_) steps |= StepUpEnabled;
+    if (!number_ || *number_ > minimum_) steps |= StepDownEnabled;
+    return steps;
+}
+
+void NumberEdit::wheelEvent(QWheelEvent* event)
+{
+    // Scrolling a long Inspector must not change what happens to pass under the pointer.
+    if (hasFocus()) {
+        QAbstractSpinBox::wheelEvent(event);
+    } else {
+        event->ignore();
+    }
+}
+
+void NumberEdit::focusInEvent(QFocusEvent* event)
+{
+    QAbstractSpinBox::focusInEvent(event);
+    selectAll();
+}
+
+QSize NumberEdit::sizeHint() const
+{
+    const int width = fontMetrics().horizontalAdvance(QStringLiteral("-00000.00 ") + suffix_);
+    return {width + 24, QAbstractSpinBox::sizeHint().height()};
+}
+
+}  // namespace jet::ui

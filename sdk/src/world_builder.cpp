@@ -1,0 +1,136 @@
+#include "world_builder.hpp"
+
+#include "scene_state.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace jet {
+
+WorldSettings worldSettings(const Scene& scene, int threads)
+{
+    WorldSettings settings;
+    settings.gravity = scene.setting("gravity").as<Vec2>();
+    settings.linearDamping = scene.setting("linear-damping").as<double>();
+    settings.angularDamping = scene.setting("angular-damping").as<double>();
+    settings.applyGravity = scene.setting("apply-gravity").as<bool>();
+    settings.applyDamping = scene.setting("apply-damping").as<bool>();
+    settings.findCollisions = scene.setting("find-collisions").as<bool>();
+    settings.resolveCollisions = scene.setting("resolve-collisions").as<bool>();
+    settings.materialCount = static_cast<std::uint32_t>(scene.materials().size());
+    settings.materials = scene.materials().pairs();
+    settings.threads = threads;
+    return settings;
+}
+
+BodyCommon SceneWorldBuilder::common(const Item& item)
+{
+    const PropertyTable& table = builtInItemType(BodyItem::type)->properties();
+    const Properties& own = item.properties();
+    BodyCommon common;
+    common.fixed = own.get("fixed", table).as<bool>();
+    common.velocity = own.get("velocity", table).as<Vec2>();
+    common.omega = own.get("omega", table).as<double>();
+    common.gravityScale = own.get("gravity-scale", table).as<double>();
+    common.sensor = own.get("sensor", table).as<bool>();
+    const auto material = own.get("material", table).as<std::string>();
+    if (!material.empty()) {
+        const int index = scene_.materials().find(material);
+        if (index < 0) {
+            warn(item, "the scene has no material '" + material + "'; '" + scene_.materials().names().front() + "' is used");
+        } else {
+            common.material = static_cast<std::uint32_t>(index);
+        }
+    }
+    return common;
+}
+
+void SceneWorldBuilder::addBody(const Item& item)
+{
+    std::optional<BodyDef> def;
+    const BodyCommon own = common(item);
+    for (const EffectInstance& instance : item.effects()) {
+        const Effect* effect = scene_.catalog().effect(instance.type);
+        if (!effect) {
+            warn(item, scene_.catalog().explain(ContributionKind::Effect, instance.type));
+            continue;
+        }
+        const EffectInput input{item, item.path(), instance.properties, effect->properties()};
+        auto built = effect->buildBody(input, own);
+        if (!built) continue;
+        if (def) {
+            warn(item, "it has two effects that build a body; the first is used");
+            break;
+        }
+        def = std::move(built);
+    }
+    if (!def) return warn(item, "no effect builds its body; it stays as drawn");
+
+    BodyBinding binding;
+    binding.item = item.id();
+    binding.fixed = own.fixed;
+    binding.restPath = item.path();
+    try {
+        if (const auto* soft = std::get_if<SoftBodyDef>(&*def)) {
+            binding.soft = true;
+            binding.body = world_.addSoftBody(*soft);
+            binding.skin = Skin(item.path(), *soft);
+        } else {
+            binding.body = world_.addRigidBody(std::get<RigidBodyDef>(*def));
+        }
+    } catch (const Failure& failure) {
+        return warn(item, std::string("its body cannot be built: ") + failure.what());
+    }
+    binding.restPosition = world_.bodies().position[binding.body];
+    bodies.push_back(std::move(binding));
+}
+
+void SceneWorldBuilder::build()
+{
+    std::size_t place = 0;
+    scene_.root().walk([&](const Item& item) {
+        order_[item.id().value] = place++;
+        if (item.is<BodyItem>()) addBody(item);
+    });
+    scene_.root().walk([&](const Item& item) {
+        if (const ItemType* type = itemTypeOf(scene_.catalog(), item.type())) type->build(item, *this);
+    });
+}
+
+namespace {
+
+// Steps between two items over their nearest common ancestor.
+int treeDistance(const Item& a, const Item& b)
+{
+    int up = 0;
+    for (const Item* from = &a; from; from = from->parent(), ++up) {
+        int down = 0;
+        for (const Item* to = &b; to; to = to->parent(), ++down)
+            if (from == to) return up + down;
+    }
+    return std::numeric_limits<int>::max();
+}
+
+}  // namespace
+
+Anchor SceneWorldBuilder::anchor(const Item& item, const Vec2& point) const
+{
+    const std::size_t here = order_.at(item.id().value);
+    Anchor anchor{kNoHandle, point};
+    int best = std::numeric_limits<int>::max();
+    std::size_t bestGap = 0;
+    for (const BodyBinding& binding : bodies) {
+        if (!world_.contains(binding.body, point)) continue;
+        const Item& body = *scene_.items().find(binding.item);
+        const int distance = treeDistance(item, body);
+        const std::size_t there = order_.at(binding.item.value);
+        // Among equally near ones the body before the item lies under it; the closest such wins, then what comes after.
+        const std::size_t gap = there < here ? here - there : there - here + order_.size();
+        if (distance > best || (distance == best && gap >= bestGap)) continue;
+        best = distance, bestGap = gap;
+        anchor.body = binding.body;
+    }
+    return anchor;
+}
+
+}  // namespace jet
