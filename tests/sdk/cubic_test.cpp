@@ -1,19 +1,14 @@
 #include "geometry_samples.hpp"
 
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 namespace jet {
 namespace {
 
 using test::awkwardCubics;
 using test::cuspCubic;
+using test::distance;
 using test::Random;
 
 constexpr int kRandomCurves = 300;
-
-double distance(const Vec2& a, const Vec2& b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
 
 double extent(const Cubic& c)
 {
