@@ -62,7 +62,6 @@ bool readNumber(std::string_view& text, double& value)
         if (!underflows({begin, stop})) return false;
         magnitude = 0;
     }
-    if (!std::isfinite(magnitude)) return false;
     value = negative ? -magnitude : magnitude;
     text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
     return true;

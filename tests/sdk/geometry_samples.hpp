@@ -40,7 +40,7 @@ inline std::vector<std::pair<std::string, Cubic>> awkwardCubics()
             {"closed loop", {{Vec2(0, 0), Vec2(30, 20), Vec2(-20, 20), Vec2(0, 0)}}},
             {"inflection", {{Vec2(0, 0), Vec2(10, 20), Vec2(10, -20), Vec2(20, 0)}}},
             {"hairpin", {{Vec2(0, 0), Vec2(100, 1e-9), Vec2(100, 2e-9), Vec2(0, 3e-9)}}},
-            {"there and back", {{Vec2(0, 0), Vec2(40, 20), Vec2(-20, -10), Vec2(20, 10)}}},
+            {"there and back", {{Vec2(0, 0), Vec2(80, 40), Vec2(-60, -30), Vec2(20, 10)}}},
             {"corner line", {{Vec2(1, 2), Vec2(1, 2), Vec2(9, -4), Vec2(9, -4)}}},
             {"even line", {{Vec2(0, 0), Vec2(1, 1), Vec2(2, 2), Vec2(3, 3)}}},
             {"handle at the start", {{Vec2(0, 0), Vec2(0, 0), Vec2(10, 10), Vec2(20, 0)}}},

@@ -57,10 +57,11 @@ TEST(PathFlattenTest, FlatteningAHugeOrBrokenCurveGivesALimitedNumberOfPoints)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN(), big = 1e300;
     for (const Cubic& c : {Cubic{{Vec2(0, 0), Vec2(big, 3 * big), Vec2(-big, big), Vec2(big, 0)}},
-                           Cubic{{Vec2(0, 0), Vec2(1e9, 3e9), Vec2(-2e9, 1e9), Vec2(1e9, 0)}},
-                           Cubic{{Vec2(0, 0), Vec2(nan, 1), Vec2(2, 2), Vec2(3, 0)}}}) {
+                           Cubic{{Vec2(0, 0), Vec2(1e9, 3e9), Vec2(-2e9, 1e9), Vec2(1e9, 0)}}}) {
         EXPECT_LE(single(c).flatten(1e-6)[0].points.size(), 4097u);
     }
+    const Cubic broken{{Vec2(0, 0), Vec2(nan, 1), Vec2(2, 2), Vec2(3, 0)}};
+    EXPECT_EQ(single(broken).flatten(1e-6)[0].points.size(), 2u);
 }
 
 TEST(PathFlattenTest, APolygonGoesThroughSegmentsAndIntermediatePointsEvenlyInT)

@@ -127,6 +127,7 @@ TEST(PathTextTest, AnErrorSaysWhatWasExpectedAndWhere)
         {"M 0 0 L - 0", "complete", 9, "M 0 0"},
         {"M 1e308 0 l 1 1 1e308 0", "add up", 17, "M 1e+308 0 L 1e+308 1"},
         {"M -1e308 0 Q 1e308 0 1e308 1", "differences", 14, "M -1e+308 0"},
+        {"M 0 0 C 0 0 -1e308 0 1e308 0 S 0 0 1 1", "reflection", 32, "M 0 0 C 0 0 -1e+308 0 1e+308 0"},
         {"M 0 0 L 1 1 n 1", "a count", 16, "M 0 0 L 1 1 n 1 0"},
         {"M 0 0 n 1001", "a count", 9, "M 0 0"},
         {"M 0 0 n -1", "a count", 9, "M 0 0"},
