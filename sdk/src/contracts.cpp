@@ -8,6 +8,7 @@
 #include <jet/plugin.hpp>
 #include <jet/script.hpp>
 #include <jet/tool.hpp>
+#include <jet/ui/panel.hpp>  // the interface needs no Qt
 
 namespace jet {
 
@@ -21,6 +22,7 @@ ScriptRuntime::~ScriptRuntime() = default;
 ScriptEngine::~ScriptEngine() = default;
 WorldBuilder::~WorldBuilder() = default;
 Editor::~Editor() = default;
+Panel::~Panel() = default;
 
 Command::~Command() = default;
 bool Command::isEnabled(Editor&) const { return true; }

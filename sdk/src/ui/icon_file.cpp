@@ -34,6 +34,12 @@ Style styleOf(const QXmlStreamAttributes& attributes, Style style)
     if (attributes.hasAttribute("stroke")) style.stroke = paintOf(attributes.value("stroke").toString());
     if (attributes.hasAttribute("stroke-width")) style.width = attributes.value("stroke-width").toDouble();
     if (attributes.hasAttribute("opacity")) style.opacity *= attributes.value("opacity").toDouble();
+    const auto fade = [&](const char* key, IconPaint& paint) {
+        const QStringView factor = attributes.value(QLatin1String(key));
+        if (!factor.isEmpty() && paint && paint->isValid()) paint->setAlphaF(paint->alphaF() * factor.toFloat());
+    };
+    fade("fill-opacity", style.fill);
+    fade("stroke-opacity", style.stroke);
     return style;
 }
 

@@ -1,0 +1,155 @@
+#include "project_access.hpp"
+#include "recorded_input.hpp"
+
+#include <jet/format.hpp>
+#include <jet/simulation.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cstdio>
+
+namespace jet::host {
+
+namespace {
+
+/// One headless run: steps the simulation, follows playScene(), keeps the hashes for --record.
+class Player {
+public:
+    Player(Session& session, Project& project, const PlayOptions& options) : session_(session), project_(project), options_(options) {}
+
+    Result<void> run(const Scene& scene)
+    {
+        if (!options_.input.empty()) {
+            auto input = RecordedInput::read(options_.input);
+            if (!input) return input.error();
+            input_ = std::move(*input);
+        }
+        if (const auto begun = begin(scene); !begun) return begun;
+        const auto before = std::chrono::steady_clock::now();
+        for (std::uint64_t step = 0; step < options_.steps; ++step) {
+            input_.apply(*simulation_, step);
+            simulation_->step();
+            if (step % 60 == 59) hashes_.push_back({{"step", step + 1}, {"hash", hashText(simulation_->hash())}});
+            if (!simulation_->requestedScene()) continue;
+            const std::string wanted = *simulation_->requestedScene();
+            const Scene* next = project_.scene(wanted);
+            if (!next) return Error("a script went to the scene '" + wanted + "', which the project does not have");
+            if (const auto begun = begin(*next); !begun) return begun;
+        }
+        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+        return {};
+    }
+
+    Result<void> writeFiles()
+    {
+        if (!options_.state.empty())
+            if (const auto written = writeFileAtomically(options_.state, simulation_->stateJson()); !written) return written;
+        if (!options_.record.empty())
+            if (const auto written = writeFileAtomically(options_.record, record()); !written) return written;
+        return options_.snapshot.empty() ? Result<void>() : snapshot();
+    }
+
+    void report() const
+    {
+        const double simulated = simulation_->time();
+        if (session_.options().json) {
+            std::printf("%s", simulation_->stateJson().c_str());
+            return;
+        }
+        std::printf("played '%s': %llu steps, %.2f s simulated in %.3f s (%.0f × real time), hash %s\n",
+                    simulation_->scene().name().c_str(), static_cast<unsigned long long>(simulation_->stepCount()), simulated,
+                    seconds_, seconds_ > 0 ? simulated / seconds_ : 0, hashText(simulation_->hash()).c_str());
+    }
+
+private:
+    Result<void> begin(const Scene& scene)
+    {
+        SimulationOptions options;
+        options.timeStep = options_.timeStep;
+        options.physics = options_.physics;
+        options.seed = options_.seed;
+        options.threads = options_.threads;
+        options.viewSize = Vec2(options_.width, options_.height);
+        options.sceneByName = [this](std::string_view name) { return project_.scene(name); };
+        auto started = Simulation::start(scene, options);
+        if (!started) return started.error();
+        simulation_ = std::move(*started);
+        for (const OutputLine& line : simulation_->output()) print(line);
+        simulation_->setOutputHandler([this](const OutputLine& line) { print(line); });
+        return {};
+    }
+
+    // The game's own words go to stdout, troubles to stderr.
+    void print(const OutputLine& line) const
+    {
+        if (line.kind == OutputLine::Kind::Text) {
+            if (!session_.options().json) std::printf("%s\n", line.text.c_str());
+        } else {
+            const Item* script = simulation_ ? simulation_->scene().items().find(line.script) : nullptr;
+            Location where;
+            if (script) where = {script->name(), line.line, 0};
+            line.kind == OutputLine::Kind::Error ? session_.error(Error(line.text, where)) : session_.warning(line.text, where);
+        }
+    }
+
+    Result<void> snapshot()
+    {
+        const std::string extension = extensionOf(options_.snapshot);
+        Exporter* exporter = session_.plugins().exporter(extension);
+        if (!exporter) return Error(session_.plugins().explain(ContributionKind::Exporter, extension));
+        std::vector<FormatNote> notes;
+        const Color background = simulation_->scene().setting("background").as<Color>();
+        ExportRequest request{simulation_->scene(), simulation_.get(), simulation_->view().view, options_.width,
+                              options_.height, background, options_.snapshot, notes, {}};
+        auto content = exporter->write(request);
+        if (!content) return content.error();
+        return writeFileAtomically(options_.snapshot, std::span<const std::byte>(*content));
+    }
+
+    std::string record() const
+    {
+        using Json = nlohmann::ordered_json;
+        Json events = Json::array();
+        for (const RecordedEvent& e : input_.events()) events.push_back({{"step", e.step}, {"key", e.key}, {"down", e.down}});
+        return Json{{"steps", simulation_->stepCount()},
+                    {"timeStep", simulation_->timeStep()},
+                    {"seed", options_.seed},
+                    {"events", events},
+                    {"hashes", hashes_},
+                    {"hash", hashText(simulation_->hash())}}
+                   .dump(1) +
+               "\n";
+    }
+
+    Session& session_;
+    Project& project_;
+    const PlayOptions& options_;
+    RecordedInput input_;
+    std::unique_ptr<Simulation> simulation_;
+    nlohmann::ordered_json hashes_ = nlohmann::ordered_json::array();
+    double seconds_ = 0;
+};
+
+}  // namespace
+
+int play(Session& session, const PlayOptions& options)
+{
+    const auto project = openProject(session, options.project);
+    if (!project) return kFailed;
+    const Scene* scene = chooseScene(session, *project, options.scene);
+    if (!scene) return kFailed;
+    Player player(session, *project, options);
+    if (const auto played = player.run(*scene); !played) {
+        session.error(played.error());
+        return kFailed;
+    }
+    player.report();
+    if (const auto written = player.writeFiles(); !written) {
+        session.error(written.error());
+        return kFailed;
+    }
+    return kOk;
+}
+
+}  // namespace jet::host

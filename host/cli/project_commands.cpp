@@ -1,0 +1,118 @@
+#include "project_access.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace jet::host {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+std::unique_ptr<Project> openProject(Session& session, const fs::path& path)
+{
+    auto project = Project::load(path, session.events(), session.plugins());
+    if (!project) {
+        session.error(project.error());
+        return nullptr;
+    }
+    for (const FormatNote& note : (*project)->notes()) session.warning(note.message, note.where);
+    return std::move(*project);
+}
+
+Scene* chooseScene(Session& session, Project& project, const std::string& wanted)
+{
+    const auto scenes = project.scenes();
+    if (scenes.empty()) {
+        session.error(Error("the project has no scene; add one in the editor", Location{project.file().string(), 0, 0}));
+        return nullptr;
+    }
+    if (wanted.empty()) return scenes.front();
+    if (Scene* named = project.scene(wanted)) return named;
+    const bool number = wanted.find_first_not_of("0123456789") == std::string::npos && wanted.size() < 10;
+    if (number && std::stoul(wanted) < scenes.size()) return scenes[std::stoul(wanted)];
+    std::string known;
+    for (const Scene* scene : scenes) known += (known.empty() ? "'" : ", '") + scene->name() + "'";
+    session.error(Error("there is no scene '" + wanted + "'; the project has " + known));
+    return nullptr;
+}
+
+int newProject(Session& session, const fs::path& folder)
+{
+    std::error_code ignored;
+    if (fs::exists(folder / "project.jet", ignored) || (folder.extension() == ".jet" && fs::exists(folder, ignored))) {
+        session.error(Error("there is a project here already; choose another folder", Location{folder.string(), 0, 0}));
+        return kFailed;
+    }
+    auto project = Project::create(folder.stem().string(), session.events(), session.plugins());
+    if (const auto saved = project->saveAs(folder); !saved) {
+        session.error(saved.error());
+        return kFailed;
+    }
+    std::printf("made %s\n", project->file().c_str());
+    return kOk;
+}
+
+int checkProject(Session& session, const fs::path& path)
+{
+    const auto project = openProject(session, path);
+    if (!project) return kFailed;
+    std::size_t items = 0;
+    for (const Scene* scene : project->scenes()) items += scene->items().itemCount();
+    if (session.options().json) {
+        Json notes = Json::array();
+        for (const FormatNote& note : project->notes())
+            notes.push_back({{"message", note.message}, {"file", note.where.file}, {"line", note.where.line}, {"column", note.where.column}});
+        std::printf("%s\n", Json{{"ok", true}, {"notes", notes}}.dump(2).c_str());
+    } else {
+        std::printf("%s: fine: %zu scenes, %zu items, %zu warnings\n", project->file().c_str(), project->scenes().size(), items,
+                    project->notes().size());
+    }
+    return kOk;
+}
+
+int projectInfo(Session& session, const fs::path& path)
+{
+    const auto project = openProject(session, path);
+    if (!project) return kFailed;
+    Json json{{"name", project->name()}, {"file", project->file().string()}, {"hash", hashText(project->hash())},
+              {"scenes", Json::array()}, {"plugins", Json::array()}};
+    for (const Scene* scene : project->scenes()) {
+        std::map<std::string, int> types;
+        scene->root().walk([&](const Item& item) {
+            if (item.parent()) ++types[item.type()];
+        });
+        const Box box = scene->root().bounds();
+        Json entry{{"name", scene->name()}, {"items", scene->items().itemCount()}, {"types", types}, {"hash", hashText(scene->hash())}};
+        if (!box.isNull()) entry["bounds"] = {box.min.x(), box.min.y(), box.max.x(), box.max.y()};
+        json["scenes"].push_back(std::move(entry));
+    }
+    for (const PluginUse& use : project->pluginsUsed())
+        json["plugins"].push_back({{"id", use.id}, {"version", use.version}, {"uses", use.count}});
+    if (session.options().json) {
+        std::printf("%s\n", json.dump(2).c_str());
+        return kOk;
+    }
+    std::printf("%s (%s)\n  hash %s\n", project->name().c_str(), project->file().c_str(), hashText(project->hash()).c_str());
+    for (const Json& scene : json["scenes"]) {
+        std::printf("  scene '%s': %d items\n", scene["name"].get<std::string>().c_str(), scene["items"].get<int>());
+        for (const auto& [type, count] : scene["types"].items()) std::printf("    %6d %s\n", count.get<int>(), type.c_str());
+    }
+    for (const Json& use : json["plugins"])
+        std::printf("  uses %s %s (%d)\n", use["id"].get<std::string>().c_str(), use["version"].get<std::string>().c_str(),
+                    use["uses"].get<int>());
+    return kOk;
+}
+
+int saveProject(Session& session, const fs::path& path)
+{
+    const auto project = openProject(session, path);
+    if (!project) return kFailed;
+    if (const auto saved = project->save(); !saved) {
+        session.error(saved.error());
+        return kFailed;
+    }
+    return kOk;
+}
+
+}  // namespace jet::host

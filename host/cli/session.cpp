@@ -1,0 +1,99 @@
+#include "session.hpp"
+
+#include <jet/format.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+namespace jet::host {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path configFolder()
+{
+    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config) return fs::path(config) / "jet";
+    const char* home = std::getenv("HOME");
+    return home && *home ? fs::path(home) / ".config" / "jet" : fs::path();
+}
+
+// A set is JSON: { "name": "...", "plugins": ["org.jet.…", …] }; by path, or by name beside the built-in plugins.
+std::set<std::string> readSet(const std::string& name)
+{
+    fs::path file = name;
+    if (file.extension() != ".jetset") file = builtInPluginFolder().parent_path() / "sets" / (name + ".jetset");
+    const auto text = readFile(file);
+    if (!text) throw Failure(text.error());
+    const auto json = nlohmann::json::parse(*text, nullptr, false, true);
+    if (!json.is_object() || !json.contains("plugins") || !json["plugins"].is_array())
+        throw Failure(Error("a plugin set is { \"name\": ..., \"plugins\": [ids] }", Location{file.string(), 1, 1}));
+    std::set<std::string> ids;
+    for (const auto& id : json["plugins"])
+        if (id.is_string()) ids.insert(id.get<std::string>());
+    return ids;
+}
+
+}  // namespace
+
+std::set<std::string> readDisabledPlugins()
+{
+    std::set<std::string> ids;
+    const fs::path file = configFolder() / "disabled-plugins";
+    if (!fs::exists(file)) return ids;
+    const auto text = readFile(file);
+    std::istringstream lines(text ? *text : std::string());
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty()) ids.insert(line);
+    return ids;
+}
+
+Result<void> writeDisabledPlugins(const std::set<std::string>& ids)
+{
+    std::error_code ignored;
+    fs::create_directories(configFolder(), ignored);
+    std::string text;
+    for (const std::string& id : ids) text += id + "\n";
+    return writeFileAtomically(configFolder() / "disabled-plugins", text);
+}
+
+Session::Session(GlobalOptions options) : options_(std::move(options)) {}
+
+PluginManager& Session::plugins()
+{
+    if (plugins_) return *plugins_;
+    PluginOptions options;
+    options.builtIn = builtInPluginFolder();
+    options.searchPath = options_.pluginPath;
+    if (const fs::path user = userPluginFolder(); !user.empty()) options.searchPath.push_back(user);
+    options.searchPath.push_back(options.builtIn);
+    options.without = {options_.without.begin(), options_.without.end()};
+    options.disabled = readDisabledPlugins();
+    options.safeMode = options_.safeMode;
+    if (!options_.set.empty()) options.only = readSet(options_.set);
+    plugins_ = std::make_unique<PluginManager>(std::move(options));
+    plugins_->setProblemHandler([this](const PluginProblem& problem) { error(Error(problem.message)); });
+    plugins_->scan();
+    return *plugins_;
+}
+
+void Session::error(const Error& error) const { std::fprintf(stderr, "%s\n", error.text().c_str()); }
+
+void Session::warning(const std::string& message, const Location& where) const
+{
+    std::string text = Error(message, where).text();
+    if (const auto at = text.find("error: "); at != std::string::npos) text.replace(at, 7, "warning: ");
+    std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+std::string hashText(std::uint64_t hash)
+{
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+}  // namespace jet::host

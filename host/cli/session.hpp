@@ -1,0 +1,53 @@
+// What all commands share: the global options, the plugin manager made from them, and the way messages are printed.
+#pragma once
+
+#include "host/plugins/plugin_manager.hpp"
+
+#include <jet/events.hpp>
+#include <jet/result.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace jet::host {
+
+/// Exit codes of the command line (stable).
+enum Exit : int { kOk = 0, kFailed = 1, kUsage = 2 };
+
+struct GlobalOptions {
+    std::vector<std::filesystem::path> pluginPath;
+    std::vector<std::string> without;
+    std::string set;
+    bool safeMode = false;
+    bool json = false;
+    bool verbose = false;
+};
+
+/// The plugins the user switched off: $XDG_CONFIG_HOME/jet/disabled-plugins, one id a line.
+std::set<std::string> readDisabledPlugins();
+Result<void> writeDisabledPlugins(const std::set<std::string>& ids);
+
+class Session {
+public:
+    explicit Session(GlobalOptions options);
+
+    const GlobalOptions& options() const { return options_; }
+    EventsCenter& events() { return events_; }
+    /// Scans the plugins on first use. Throws Failure when the plugin set cannot be read.
+    PluginManager& plugins();
+
+    void error(const Error& error) const;
+    void warning(const std::string& message, const Location& where = {}) const;
+
+private:
+    GlobalOptions options_;
+    EventsCenter events_;
+    std::unique_ptr<PluginManager> plugins_;
+};
+
+/// "0x…" hashes are printed as 16 hexadecimal digits.
+std::string hashText(std::uint64_t hash);
+
+}  // namespace jet::host

@@ -1,0 +1,55 @@
+// One installed plugin: its manifest, its state with the reason for it, its library once loaded, and what calls into it cost.
+#pragma once
+
+#include "manifest.hpp"
+
+#include <jet/plugin.hpp>
+
+#include <atomic>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace jet::host {
+
+/// Found -> Valid -> Resolved -> Loaded -> Active, or Disabled, Shadowed, Faulted; see docs/plugins.md.
+enum class PluginState { Found, Valid, Resolved, Loaded, Active, Disabled, Shadowed, Faulted };
+std::string_view stateName(PluginState state);
+
+/// The factories a loaded plugin registered.
+struct Registrations {
+    std::map<std::string, PluginRegistrar::ToolFactory, std::less<>> tools;
+    std::map<std::string, PluginRegistrar::PanelFactory, std::less<>> panels;
+    std::map<std::string, PluginRegistrar::Factory<Effect>, std::less<>> effects;
+    std::map<std::string, PluginRegistrar::Factory<ItemType>, std::less<>> itemTypes;
+    std::map<std::string, PluginRegistrar::Factory<Importer>, std::less<>> importers;
+    std::map<std::string, PluginRegistrar::Factory<Exporter>, std::less<>> exporters;
+    std::map<std::string, PluginRegistrar::Factory<PhysicsEngine>, std::less<>> physicsEngines;
+    std::map<std::string, PluginRegistrar::Factory<ScriptEngine>, std::less<>> scriptEngines;
+    std::map<std::string, PluginRegistrar::Factory<Command>, std::less<>> commands;
+};
+
+class PluginLibrary;
+
+struct Plugin {
+    std::filesystem::path folder;
+    Manifest manifest;
+    std::atomic<PluginState> state{PluginState::Found};
+    std::string reason;  ///< why it is Disabled, Shadowed or Faulted
+    std::unique_ptr<PluginLibrary> library;
+    Registrations registrations;
+    double loadMs = 0;
+    std::atomic<std::uint64_t> calls{0};
+
+    bool usable() const
+    {
+        const PluginState now = state;
+        return now != PluginState::Disabled && now != PluginState::Shadowed && now != PluginState::Faulted;
+    }
+    /// "Rectangle (org.jet.tool.rectangle 1.0.0)".
+    std::string title() const;
+};
+
+}  // namespace jet::host
