@@ -1,0 +1,67 @@
+// Scene-level springs, angular springs, torques and forces (thesis §2.4.3, package "actuators"; SPEC PH7).
+#pragma once
+
+#include "anchor.hpp"
+
+namespace jet::physics {
+
+class Actuators {
+public:
+    ActuatorHandle add(const State&, const SpringActuatorDef&);
+    ActuatorHandle add(const State&, const AngularSpringActuatorDef&);
+    ActuatorHandle add(const State&, const TorqueActuatorDef&);
+    ActuatorHandle add(const State&, const ForceActuatorDef&);
+
+    Index torqueCount() const { return static_cast<Index>(torques_.size()); }
+    Index forceCount() const { return static_cast<Index>(forces_.size()); }
+    void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }
+    void setForce(ActuatorHandle handle, const Vec2& value) { forces_[handle].force = value; }
+
+    void addTo(StiffnessBounds&, const State&) const;
+    void prepare(const StiffnessBounds&, double h);
+    /// Adds torques and forces to the nodes; they hold for one substep, as levers turn with their bodies.
+    void addForces(State&) const;
+    /// Changes velocities by the impulses of springs and angular springs over h.
+    void applySprings(State&, double h, bool backwards);
+
+    template <class Archive>
+    void archive(Archive& with)
+    {
+        for (Spring& spring : springs_) with(spring.alive);
+        for (AngularSpring& spring : angularSprings_) with(spring.angle);
+        for (Torque& torque : torques_) with(torque.value);
+        for (Force& force : forces_) with(force.force);
+    }
+
+private:
+    struct Spring {
+        AnchorPoint a, b;
+        double restLength, ks, kd, tearLength;
+        std::uint8_t alive = 1;
+        double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
+    };
+    struct AngularSpring {
+        AnchorPoint a, centre, b;
+        double restAngle, ks, kd, angle;
+        double restCompliance;
+        double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
+    };
+    struct Torque {
+        AnchorPoint at;
+        double value;
+    };
+    struct Force {
+        AnchorPoint at;
+        Vec2 force;
+    };
+
+    static void apply(State&, Spring&, double h);
+    static void apply(State&, AngularSpring&, double h);
+
+    std::vector<Spring> springs_;
+    std::vector<AngularSpring> angularSprings_;
+    std::vector<Torque> torques_;
+    std::vector<Force> forces_;
+};
+
+}  // namespace jet::physics

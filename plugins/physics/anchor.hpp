@@ -1,0 +1,52 @@
+// Where an actuator holds on: the background, a rigid body's local point, or a few particles of a soft body.
+#pragma once
+
+#include "state.hpp"
+#include "stiffness.hpp"
+
+#include <array>
+
+namespace jet::physics {
+
+struct AnchorPoint {
+    static constexpr int kMostNodes = 6;
+
+    int count = 0;  // nodes held; 0: the background
+    std::array<Index, kMostNodes> node{};
+    std::array<double, kMostNodes> weight{};  // sum 1; particles' weighted mean is the anchored point
+    Vec2 local;  // background: scene point; rigid: in the node's frame; soft: what the mean misses
+    Index body = kNone;
+
+    Vec2 position(const State&) const;
+    /// From the node to the anchored point, scene directions; zero for particles.
+    Vec2 arm(const State&) const;
+    Vec2 velocity(const State&) const;
+    void applyImpulse(State&, const Vec2& impulse) const;
+    void addForce(State&, const Vec2& force) const;
+    /// Adds a spring of stiffness ks held here to the bounds.
+    void addTo(StiffnessBounds&, const State&, double ks) const;
+    double share(const StiffnessBounds&, double h) const;
+};
+
+AnchorPoint resolveAnchor(const State&, const Anchor&);
+
+/// Impulses along given directions at several anchors at once, as one constraint: what it takes to change their rate.
+/// Anchors may hold the same node.
+class AnchorJacobian {
+public:
+    void add(const State&, const AnchorPoint&, const Vec2& direction);
+    double rate(const State&) const;
+    double compliance(const State&) const;
+    void apply(State&, double impulse) const;
+
+private:
+    struct Entry {
+        Index node;
+        Vec2 linear;
+        double angular;
+    };
+    int count_ = 0;
+    std::array<Entry, 3 * AnchorPoint::kMostNodes> entries_;
+};
+
+}  // namespace jet::physics

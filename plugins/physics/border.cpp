@@ -1,0 +1,131 @@
+#include "border.hpp"
+
+namespace jet::physics {
+
+namespace {
+
+constexpr double kBluntSine = 0.35;  // corners that turn away by less than 20 degrees count as one smooth wall
+
+Vec2 wallVector(const State& state, const BodyRecord& body, Index wall)
+{
+    const auto& at = state.gridFrame(body);
+    return at[state.walls.second[wall]] - at[state.walls.first[wall]];
+}
+
+void addRing(State& state, std::span<const Index> ring)
+{
+    Walls& walls = state.walls;
+    const auto start = static_cast<Index>(walls.size());
+    const auto count = static_cast<Index>(ring.size());
+    for (Index i = 0; i < count; ++i) {
+        walls.first.push_back(ring[i]);
+        walls.second.push_back(ring[(i + 1) % count]);
+        walls.previous.push_back(start + (i + count - 1) % count);
+        walls.next.push_back(start + (i + 1) % count);
+        walls.outward.push_back(0);
+        walls.firstEnd.push_back(WallEnd::Blunt);
+        walls.secondEnd.push_back(WallEnd::Blunt);
+    }
+}
+
+/// A step off the middle of the wall to either side: one must be inside and the other outside, else it bounds nothing
+/// (walls that lie on each other, borders without area).
+std::int8_t outerSide(const State& state, const BodyRecord& body, Index wall)
+{
+    const Vec2 along = wallVector(state, body, wall);
+    const double length = along.norm();
+    const double extent = body.grid.bounds().size().maxCoeff();
+    if (!(length > 1e-9 * extent)) return 0;
+    const Vec2 middle = state.gridFrame(body)[state.walls.first[wall]] + 0.4931 * along;
+    const Vec2 aside = perpendicular(along) * (1e-7 * extent / length);
+    const bool plus = body.grid.inside(middle + aside), minus = body.grid.inside(middle - aside);
+    if (plus == minus) return 0;
+    return plus ? -1 : 1;
+}
+
+void markCollidable(State& state, const BodyRecord& body)
+{
+    const auto& at = state.gridFrame(body);
+    // A point in no wall collides when it is loose: outside the region, or of a body that has none.
+    for (Index p = body.points.first; p < body.points.end(); ++p) state.points.collidable[p] = !body.grid.inside(at[p]);
+    for (Index w = body.walls.first; w < body.walls.end(); ++w) {
+        state.points.collidable[state.walls.first[w]] = 1;
+        state.points.collidable[state.walls.second[w]] = 1;
+    }
+}
+
+}  // namespace
+
+void rebuildGrid(State& state, BodyRecord& body)
+{
+    const auto& at = state.gridFrame(body);
+    thread_local std::vector<EdgeGrid::Edge> edges;
+    edges.clear();
+    for (Index w = body.walls.first; w < body.walls.end(); ++w)
+        edges.push_back({at[state.walls.first[w]], at[state.walls.second[w]]});
+    body.grid.build(edges);
+}
+
+void updateCorners(State& state, const BodyRecord& body)
+{
+    Walls& walls = state.walls;
+    for (Index p = body.points.first; p < body.points.end(); ++p) state.points.normal[p] = Vec2(0, 0);
+    for (Index w = body.walls.first; w < body.walls.end(); ++w) {
+        const Vec2 along = wallVector(state, body, w);
+        const double length = along.norm();
+        if (walls.outward[w] == 0 || !(length > 0)) continue;
+        const Vec2 normal = perpendicular(along) * (walls.outward[w] / length);
+        state.points.normal[walls.first[w]] += normal;
+        state.points.normal[walls.second[w]] += normal;
+        const auto end = [&](const Vec2& away) {
+            return away.dot(normal) < -kBluntSine * away.norm() ? WallEnd::Sharp : WallEnd::Blunt;
+        };
+        walls.firstEnd[w] = end(-wallVector(state, body, walls.previous[w]));
+        walls.secondEnd[w] = end(wallVector(state, body, walls.next[w]));
+    }
+    for (Index p = body.points.first; p < body.points.end(); ++p) {
+        Vec2& normal = state.points.normal[p];
+        const double length = normal.norm();
+        normal = length > 1e-6 ? Vec2(normal / length) : Vec2(0, 0);
+    }
+}
+
+void addBorders(State& state, BodyRecord& body, std::span<const std::vector<Index>> rings)
+{
+    body.walls.first = static_cast<Index>(state.walls.size());
+    for (const auto& ring : rings)
+        if (ring.size() >= 3) addRing(state, ring);
+    body.walls.count = static_cast<Index>(state.walls.size()) - body.walls.first;
+    rebuildGrid(state, body);
+    for (Index w = body.walls.first; w < body.walls.end(); ++w) state.walls.outward[w] = outerSide(state, body, w);
+    markCollidable(state, body);
+    updateCorners(state, body);
+}
+
+Region measureRegion(const State& state, const BodyRecord& body)
+{
+    // Green's theorem over the walls, each walked with the inside on the same hand, from a nearby origin.
+    Region region;
+    if (body.walls.count == 0) return region;
+    const auto& at = state.gridFrame(body);
+    const Vec2 origin = body.grid.bounds().center();
+    Vec2 moment(0, 0);
+    double second = 0;
+    for (Index w = body.walls.first; w < body.walls.end(); ++w) {
+        if (state.walls.outward[w] == 0) continue;
+        Vec2 a = at[state.walls.first[w]] - origin, b = at[state.walls.second[w]] - origin;
+        if (state.walls.outward[w] > 0) std::swap(a, b);
+        const double twice = cross(a, b);
+        region.area += 0.5 * twice;
+        moment += (twice / 6) * (a + b);
+        second += twice / 12 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    }
+    const Vec2 size = body.grid.bounds().size();
+    if (!(region.area > 1e-9 * size.squaredNorm())) return Region();
+    const Vec2 centre = moment / region.area;
+    region.centroid = origin + centre;
+    region.inertia = second / region.area - centre.squaredNorm();
+    return region;
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,30 @@
+// Borders: from rings of points to walls that know which of their sides is outside.
+#pragma once
+
+#include "state.hpp"
+
+#include <span>
+
+namespace jet::physics {
+
+/// Appends the walls of `rings` (indices of points, each ring closed) to `body`, finds their outer sides, and says
+/// which points collide. Points of zero-length walls and of borders without area end up without walls; nothing is
+/// refused.
+void addBorders(State&, BodyRecord& body, std::span<const std::vector<Index>> rings);
+
+/// Corner kinds of the walls and normals of the points, in the frame of the body's grid.
+void updateCorners(State&, const BodyRecord& body);
+/// The grid over the body's walls as they are now.
+void rebuildGrid(State&, BodyRecord& body);
+
+struct Region {
+    double area = 0;     // units²
+    Vec2 centroid;       // scene units
+    double inertia = 0;  // second moment about the centroid per unit of mass, units²
+};
+
+/// Area, centroid and second moment of the region inside an odd number of the body's borders, so holes count as holes.
+/// Area 0 when the walls enclose nothing that can be measured.
+Region measureRegion(const State&, const BodyRecord& body);
+
+}  // namespace jet::physics

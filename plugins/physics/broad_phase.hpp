@@ -1,0 +1,26 @@
+// Which bodies may meet during the coming step?
+#pragma once
+
+#include "state.hpp"
+
+namespace jet::physics {
+
+struct BodyPair {
+    Index a, b;  // a < b
+};
+
+/// What a body may do in the coming step of dt.
+struct Motion {
+    Box reach;      // everywhere it may come
+    Vec2 velocity;  // of its centre
+    double omega = 0;
+    Vec2 centre;
+    double range = 0;  // units any of its points may move
+    double stray = 0;  // units its points may leave the predicted rigid motion before contacts are sought again
+};
+
+/// Pairs whose reaches meet, by a sweep over boxes sorted along x; in ascending order. Pairs of fixed bodies are left
+/// out.
+void findPairs(const State&, const std::vector<Motion>& motions, std::vector<BodyPair>& pairs);
+
+}  // namespace jet::physics

@@ -1,0 +1,183 @@
+#include "contact_finder.hpp"
+
+#include "border.hpp"
+
+#include <chrono>
+
+namespace jet::physics {
+
+namespace {
+
+// What a body may stray from its predicted motion before contacts are sought again: larger finds more useless contacts,
+// smaller seeks more often.
+constexpr double kStrayLengths = 0.04, kStrayOfMotion = 0.1;
+
+double millisecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSettings& settings)
+{
+    const MaterialPair& pair =
+        settings.materials[static_cast<std::size_t>(a.material) * settings.materialCount + b.material];
+    ContactPoint pattern;
+    const double lengthA = a.fixed ? b.length : a.length, lengthB = b.fixed ? a.length : b.length;
+    pattern.slop = kSlopPerLength * std::min(lengthA, lengthB);
+    pattern.friction = pair.friction;
+    pattern.restitution = pair.restitution;
+    pattern.resolve = settings.resolveCollisions && !a.sensor && !b.sensor;
+    return pattern;
+}
+
+}  // namespace
+
+void ContactFinder::find(State& state, const WorldSettings& settings, double dt, std::vector<ContactPoint>& contacts,
+                         StepStats& stats)
+{
+    const auto start = std::chrono::steady_clock::now();
+    updatePoints(state);
+    predict(state, settings, dt);
+    findPairs(state, motions_, pairs_);
+    stats.broadPhaseMs += millisecondsSince(start);
+
+    const auto narrow = std::chrono::steady_clock::now();
+    previous_.swap(contacts);
+    contacts.clear();
+    for (BodyRecord& body : state.bodies) {
+        if (body.rigid || body.walls.count == 0) continue;
+        rebuildGrid(state, body);
+        updateCorners(state, body);
+    }
+    collidePairs(state, settings, dt, previous_, contacts);
+    carryOver(state, previous_, contacts);
+    stats.narrowPhaseMs += millisecondsSince(narrow);
+}
+
+void ContactFinder::collidePairs(const State& state, const WorldSettings& settings, double dt,
+                                 std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts)
+{
+    NarrowPhase narrow(state, motions_, previous, dt);
+    for (const BodyPair& pair : pairs_) {
+        const BodyRecord &a = state.bodies[pair.a], &b = state.bodies[pair.b];
+        if (!settings.materials[static_cast<std::size_t>(a.material) * settings.materialCount + b.material].collides)
+            continue;
+        const ContactPoint pattern = patternOf(a, b, settings);
+        narrow.collide(pair.a, pair.b, pattern, contacts);
+        narrow.collide(pair.b, pair.a, pattern, contacts);
+    }
+    // A point inside may have been found twice at one wall: once at its front, once to be pushed out; the latter
+    // counts.
+    std::sort(contacts.begin(), contacts.end(), [](const ContactPoint& p, const ContactPoint& q) {
+        return p.key() < q.key() || (p.key() == q.key() && p.inside && !q.inside);
+    });
+    contacts.erase(std::unique(contacts.begin(), contacts.end(),
+                               [](const ContactPoint& p, const ContactPoint& q) { return p.key() == q.key(); }),
+                   contacts.end());
+}
+
+/// Impulses go to the same point at the same wall, else, where a point slid on, at the neighbouring wall.
+void ContactFinder::carryOver(const State& state, std::span<const ContactPoint> previous,
+                              std::vector<ContactPoint>& contacts)
+{
+    auto old = previous.begin();
+    for (ContactPoint& c : contacts) {
+        while (old != previous.end() && old->point < c.point) ++old;
+        const ContactPoint* from = nullptr;
+        for (auto it = old; it != previous.end() && it->point == c.point; ++it) {
+            if (it->wall == c.wall) {
+                from = &*it;
+                break;
+            }
+            const bool neighbour = it->wall == state.walls.previous[c.wall] || it->wall == state.walls.next[c.wall];
+            if (neighbour && it->active && it->normalImpulse > 0) from = &*it;
+        }
+        if (!from) continue;
+        const bool same = from->wall == c.wall;
+        // Only a point that leaves the neighbouring wall brings its impulse along; one held by both has its own.
+        if (!same && from->along >= 0 && from->along <= 1) continue;
+        c.normalImpulse = from->normalImpulse;
+        c.tangentImpulse = from->tangentImpulse;
+        if (same) c.stepImpulse = from->stepImpulse, c.engaged = from->engaged && from->active;
+    }
+}
+
+void ContactFinder::collectEnded(std::span<const ContactPoint> contacts, std::vector<ContactPoint>& ended) const
+{
+    auto now = contacts.begin();
+    for (const ContactPoint& c : previous_) {
+        while (now != contacts.end() && now->key() < c.key()) ++now;
+        const bool persists = now != contacts.end() && now->key() == c.key();
+        if (!persists && c.stepImpulse > 0) ended.push_back(c);
+    }
+}
+
+void ContactFinder::predict(const State& state, const WorldSettings& settings, double dt)
+{
+    motions_.assign(state.bodies.size(), Motion());
+    budgets_.assign(state.bodies.size(), 0.0);
+    for (Index handle = 0; handle < state.bodies.size(); ++handle)
+        predictBody(state, state.bodies[handle], settings, dt, motions_[handle], budgets_[handle]);
+    position_ = state.nodes.position;
+    velocity_ = state.nodes.velocity;
+    angle_ = state.nodes.angle;
+    omega_ = state.nodes.omega;
+}
+
+void ContactFinder::predictBody(const State& state, const BodyRecord& body, const WorldSettings& settings, double dt,
+                                Motion& motion, double& budget) const
+{
+    const Nodes& nodes = state.nodes;
+    for (Index p = body.points.first; p < body.points.end(); ++p) motion.reach.extend(state.points.position[p]);
+    if (body.fixed || body.nodes.count == 0) return;
+
+    double inertia = 0, momentum = 0, spread = 0;
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+        motion.centre += nodes.mass[n] * nodes.position[n];
+        motion.velocity += nodes.mass[n] * nodes.velocity[n];
+    }
+    motion.centre /= body.mass;
+    motion.velocity /= body.mass;
+    if (body.rigid) {
+        motion.omega = nodes.omega[body.nodes.first];
+    } else {
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+            const Vec2 arm = nodes.position[n] - motion.centre;
+            inertia += nodes.mass[n] * arm.squaredNorm();
+            momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - motion.velocity);
+        }
+        motion.omega = inertia > 0 ? momentum / inertia : 0;
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+            const Vec2 rigid = motion.velocity + motion.omega * perpendicular(nodes.position[n] - motion.centre);
+            spread = std::max(spread, (nodes.velocity[n] - rigid).norm());
+        }
+    }
+    const double radius = 0.5 * motion.reach.size().norm();
+    const double turning = std::min(std::abs(motion.omega) * dt, 2.0) * radius;
+    const double gravity = settings.applyGravity ? settings.gravity.norm() * std::abs(body.gravityScale) : 0;
+    budget = kStrayLengths * body.length + kStrayOfMotion * (motion.velocity.norm() * dt + turning) + gravity * dt * dt;
+    motion.stray = budget + spread * dt;
+    motion.range = motion.velocity.norm() * dt + turning + motion.stray;
+    const Vec2 step = motion.velocity * dt;
+    Box moved = motion.reach;
+    moved.min += step, moved.max += step;
+    motion.reach.extend(moved);
+    motion.reach = motion.reach.inflated(turning + motion.stray + 4 * kSlopPerLength * body.length);
+}
+
+bool ContactFinder::strayed(const State& state, double elapsed) const
+{
+    const Nodes& nodes = state.nodes;
+    for (Index handle = 0; handle < state.bodies.size(); ++handle) {
+        const BodyRecord& body = state.bodies[handle];
+        if (body.fixed || body.points.count == 0) continue;
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+            double distance = (nodes.position[n] - position_[n] - elapsed * velocity_[n]).norm();
+            if (body.rigid) distance += body.radius * std::abs(nodes.angle[n] - angle_[n] - elapsed * omega_[n]);
+            if (distance > budgets_[handle]) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,33 @@
+// Detection: predicts where bodies may come, finds pairs, collides them both ways, and carries the impulses of contacts
+// that persist over to the new ones. Says when bodies have left their predictions, so that it must be done again.
+#pragma once
+
+#include "narrow_phase.hpp"
+
+namespace jet::physics {
+
+class ContactFinder {
+public:
+    /// Contacts that serve the coming `dt` seconds, in ascending order of (point, wall).
+    void find(State&, const WorldSettings&, double dt, std::vector<ContactPoint>& contacts, StepStats&);
+    /// Appends those contacts the last find() dropped that had pushed in this step: they are over, but they happened.
+    void collectEnded(std::span<const ContactPoint> contacts, std::vector<ContactPoint>& ended) const;
+    /// Has a body moved, since find(), further from its prediction than its contacts allow for? `elapsed`: seconds.
+    bool strayed(const State&, double elapsed) const;
+
+private:
+    void predict(const State&, const WorldSettings&, double dt);
+    void predictBody(const State&, const BodyRecord&, const WorldSettings&, double dt, Motion&, double& budget) const;
+    void collidePairs(const State&, const WorldSettings&, double dt, std::span<const ContactPoint> previous,
+                      std::vector<ContactPoint>& contacts);
+    static void carryOver(const State&, std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts);
+
+    std::vector<Motion> motions_;
+    std::vector<double> budgets_;            // [bodies] units a node may stray
+    std::vector<Vec2> position_, velocity_;  // [nodes] at the last find()
+    std::vector<double> angle_, omega_;
+    std::vector<BodyPair> pairs_;
+    std::vector<ContactPoint> previous_;
+};
+
+}  // namespace jet::physics

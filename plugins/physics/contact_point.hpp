@@ -1,0 +1,45 @@
+// A point of body A that may touch a wall of body B in this step: found by the narrow phase, solved by the contact
+// solver.
+#pragma once
+
+#include "state.hpp"
+
+namespace jet::physics {
+
+/// Slop as a part of the length of the smaller body.
+inline constexpr double kSlopPerLength = 0.002;
+/// In slops: overlaps up to this depth can come of resting; a point deeper behind a wall went round its end or is
+/// inside.
+inline constexpr double kTouchDepth = 4;
+
+struct ContactPoint {
+    // Found once a detection.
+    Index point = 0, wall = 0;
+    Index bodyA = 0, bodyB = 0;
+    double slop = 0;  // units; overlap that is left in peace, so that resting contacts persist
+    double friction = 0, restitution = 0;
+    bool resolve = true;   // false: sensors
+    bool inside = false;   // the point began this step inside B and is pushed out through this wall
+    bool engaged = false;  // the point has come to the wall from outside
+    bool firstInset = false, secondInset = false;  // near that end the wall leaves the point to its neighbour
+
+    // Refreshed each substep.
+    bool active = false;
+    Vec2 normal;            // unit, out of B
+    double separation = 0;  // units along the normal; negative when overlapping
+    double along = 0;       // 0..1 on the wall
+    Index nodeA = 0, nodeB0 = 0, nodeB1 = 0;
+    double weightB0 = 1, weightB1 = 0;  // the wall's point between its ends; a rigid wall is one node
+    Vec2 armA, armB;                    // from the nodes, units
+    double normalMass = 0, tangentMass = 0;
+    double approachSpeed = 0;  // along the normal before the contact acts, units/s; negative when approaching
+    bool againstFixed = false;
+
+    // Carried from substep to substep and, by (point, wall), from step to step.
+    double normalImpulse = 0, tangentImpulse = 0;  // of the last substep, mass * unit / s
+    double stepImpulse = 0;                        // normal, summed over the step
+
+    std::uint64_t key() const { return (static_cast<std::uint64_t>(point) << 32) | wall; }
+};
+
+}  // namespace jet::physics

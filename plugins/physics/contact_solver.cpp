@@ -1,0 +1,189 @@
+#include "contact_solver.hpp"
+
+namespace jet::physics {
+
+namespace {
+
+constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;
+constexpr double kPushLengthsPerSecond = 4;  // overlaps are pushed out no faster than this many body lengths a second
+constexpr double kSharpInset = 2, kBluntOverhang = 2;  // in slops
+constexpr int kRestitutionPasses = 4;
+
+}  // namespace
+
+ContactSolver::ContactSolver(State& state, double h, double gravity)
+    : state_(state), h_(h), restSpeed_(4 * gravity * h),
+      moving_(softness(std::min(kHertz, kHertzPerSubstepRate / h), kDampingRatio, h)),
+      fixed_(softness(2 * std::min(kHertz, kHertzPerSubstepRate / h), kDampingRatio, h))
+{
+}
+
+/// A damped spring of that frequency, integrated implicitly over h, as a bias rate and two scales of the impulse.
+ContactSolver::Softness ContactSolver::softness(double hertz, double dampingRatio, double h)
+{
+    const double omega = 2 * kPi * hertz;
+    const double a1 = 2 * dampingRatio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+    return {omega / a1, a2 * a3, a3};
+}
+
+Vec2 ContactSolver::relativeVelocity(const ContactPoint& c) const
+{
+    const Nodes& nodes = state_.nodes;
+    return nodes.velocityAt(c.nodeA, c.armA) - c.weightB0 * nodes.velocityAt(c.nodeB0, c.armB) -
+           c.weightB1 * nodes.velocityAt(c.nodeB1, c.armB);
+}
+
+void ContactSolver::applyImpulse(const ContactPoint& c, const Vec2& impulse)
+{
+    state_.nodes.applyImpulse(c.nodeA, c.armA, impulse);
+    state_.nodes.applyImpulse(c.nodeB0, c.armB, -c.weightB0 * impulse);
+    if (c.weightB1 != 0) state_.nodes.applyImpulse(c.nodeB1, c.armB, -c.weightB1 * impulse);
+}
+
+double ContactSolver::effectiveMass(const ContactPoint& c, const Vec2& direction) const
+{
+    const Nodes& nodes = state_.nodes;
+    const double leverA = cross(c.armA, direction), leverB = cross(c.armB, direction);
+    const double inverse =
+        nodes.invMass[c.nodeA] + nodes.invInertia[c.nodeA] * leverA * leverA +
+        c.weightB0 * c.weightB0 * (nodes.invMass[c.nodeB0] + nodes.invInertia[c.nodeB0] * leverB * leverB) +
+        c.weightB1 * c.weightB1 * nodes.invMass[c.nodeB1];
+    return inverse > 0 ? 1 / inverse : 0;
+}
+
+double ContactSolver::pushSpeed(const ContactPoint& c) const { return kPushLengthsPerSecond * c.slop / kSlopPerLength; }
+
+/// Geometry as the nodes stand now.
+void ContactSolver::refresh(ContactPoint& c)
+{
+    const Nodes& nodes = state_.nodes;
+    c.active = false;
+    const Vec2 at = state_.pointNow(c.point);
+    const Vec2 first = state_.pointNow(state_.walls.first[c.wall]);
+    const Vec2 edge = state_.pointNow(state_.walls.second[c.wall]) - first;
+    const double squared = edge.squaredNorm();
+    if (!(squared > 1e-24)) return;
+    const double length = std::sqrt(squared);
+    c.normal = perpendicular(edge) * (state_.walls.outward[c.wall] / length);
+    c.separation = (at - first).dot(c.normal);
+    c.along = (at - first).dot(edge) / squared;
+
+    c.nodeA = state_.points.node[c.point];
+    c.nodeB0 = state_.points.node[state_.walls.first[c.wall]];
+    c.nodeB1 = state_.points.node[state_.walls.second[c.wall]];
+    c.armA = at - nodes.position[c.nodeA];
+    c.armB = Vec2(0, 0);
+    const double along = std::clamp(c.along, 0.0, 1.0);
+    if (c.nodeB0 == c.nodeB1) {
+        c.weightB0 = 1, c.weightB1 = 0;
+        c.armB = first + along * edge - nodes.position[c.nodeB0];
+    } else {
+        c.weightB0 = 1 - along, c.weightB1 = along;
+    }
+    const Vec2 velocity = relativeVelocity(c);
+    c.approachSpeed = velocity.dot(c.normal);
+    c.active = decideActive(c, length, velocity.dot(edge) / squared);
+}
+
+/// Is the point at the wall, or about to come to it in this substep? `slide`: change of `along` per second.
+bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slide) const
+{
+    const auto overhang = [&](bool inset) {
+        return inset ? -std::min(kSharpInset * c.slop, 0.25 * wallLength) : kBluntOverhang * c.slop;
+    };
+    if (c.inside) return true;
+    double along = c.along;
+    if (c.separation > 0) {
+        const double distance = -c.approachSpeed * h_;
+        // What cannot arrive in this substep is left out of the solving; the margin is for what the solving adds.
+        if (c.separation > 2 * distance + 4 * c.slop) return false;
+        if (distance > 0) along += slide * h_ * std::min(1.0, c.separation / distance);
+    }
+    const double fromFirst = along * wallLength, fromSecond = (1 - along) * wallLength;
+    if (fromFirst < -overhang(c.firstInset) || fromSecond < -overhang(c.secondInset)) return false;
+    // A point that is behind the wall without having come to it went round its end: it is not to be pulled through.
+    if (c.separation < -kTouchDepth * c.slop && !c.engaged) return false;
+    c.engaged = true;
+    return true;
+}
+
+void ContactSolver::prepare(std::span<ContactPoint> contacts)
+{
+    for (ContactPoint& c : contacts) {
+        if (!c.resolve) continue;
+        refresh(c);
+        if (!c.active) {
+            c.normalImpulse = c.tangentImpulse = 0;
+            continue;
+        }
+        c.normalMass = effectiveMass(c, c.normal);
+        c.tangentMass = effectiveMass(c, perpendicular(c.normal));
+        const Nodes& nodes = state_.nodes;
+        c.againstFixed = nodes.invMass[c.nodeA] == 0 || (nodes.invMass[c.nodeB0] == 0 && nodes.invMass[c.nodeB1] == 0);
+    }
+    for (ContactPoint& c : contacts)
+        if (c.active && c.resolve)
+            applyImpulse(c, c.normalImpulse * c.normal + c.tangentImpulse * perpendicular(c.normal));
+}
+
+void ContactSolver::solveOne(ContactPoint& c, Pass pass)
+{
+    // Normal: the separation at the end of the substep shall not be negative.
+    const Softness& soft = c.againstFixed ? fixed_ : moving_;
+    double bias = 0, massScale = 1, impulseScale = 0;
+    if (c.separation > 0) {
+        bias = c.separation / h_;
+    } else if (pass == Pass::Push) {
+        bias = std::max(soft.biasRate * std::min(0.0, c.separation + c.slop), -pushSpeed(c));
+        massScale = soft.massScale;
+        impulseScale = soft.impulseScale;
+    }
+    const double normalSpeed = relativeVelocity(c).dot(c.normal);
+    const double wanted = -c.normalMass * massScale * (normalSpeed + bias) - impulseScale * c.normalImpulse;
+    const double normalImpulse = std::max(c.normalImpulse + wanted, 0.0);
+    applyImpulse(c, (normalImpulse - c.normalImpulse) * c.normal);
+    c.normalImpulse = normalImpulse;
+
+    const Vec2 tangent = perpendicular(c.normal);
+    const double most = c.friction * c.normalImpulse;
+    const double slide = relativeVelocity(c).dot(tangent);
+    const double tangentImpulse = std::clamp(c.tangentImpulse - c.tangentMass * slide, -most, most);
+    applyImpulse(c, (tangentImpulse - c.tangentImpulse) * tangent);
+    c.tangentImpulse = tangentImpulse;
+}
+
+void ContactSolver::solve(std::span<ContactPoint> contacts)
+{
+    for (ContactPoint& c : contacts)
+        if (c.active && c.resolve) solveOne(c, Pass::Push);
+}
+
+void ContactSolver::relax(std::span<ContactPoint> contacts)
+{
+    // The nodes have moved by h times their velocities, and the separations with them.
+    for (ContactPoint& c : contacts)
+        if (c.active && c.resolve) c.separation += h_ * relativeVelocity(c).dot(c.normal);
+    for (ContactPoint& c : contacts)
+        if (c.active && c.resolve) solveOne(c, Pass::Relax);
+    for (ContactPoint& c : contacts)
+        if (c.active && c.resolve) c.stepImpulse += c.normalImpulse;
+}
+
+void ContactSolver::restitute(std::span<ContactPoint> contacts)
+{
+    const auto bounces = [&](const ContactPoint& c) {
+        return c.active && c.resolve && c.restitution > 0 && c.approachSpeed < -restSpeed_ && c.normalImpulse > 0;
+    };
+    for (int pass = 0; pass < kRestitutionPasses; ++pass) {
+        for (ContactPoint& c : contacts) {
+            if (!bounces(c)) continue;
+            const double missing = relativeVelocity(c).dot(c.normal) + c.restitution * c.approachSpeed;
+            const double impulse = std::max(c.normalImpulse - c.normalMass * missing, 0.0);
+            applyImpulse(c, (impulse - c.normalImpulse) * c.normal);
+            c.stepImpulse += impulse - c.normalImpulse;
+            c.normalImpulse = impulse;
+        }
+    }
+}
+
+}  // namespace jet::physics

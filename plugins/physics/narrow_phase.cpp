@@ -1,0 +1,159 @@
+#include "narrow_phase.hpp"
+
+namespace jet::physics {
+
+namespace {
+
+constexpr Index kManyPoints = 48;  // above this the points near the other body are looked up in the grid
+// How far a point's own outside may lean with a wall's and still be thought to hit it: corners of rigid bodies point
+// away from walls they cannot hit; those of soft bodies may be folded, so more is believed possible.
+constexpr double kRigidLean = 0.3, kSoftLean = 0.6;
+constexpr double kHeldBonus = 0.5;  // a wall that held the point counts as half as far
+constexpr double kShallow = 0.5;    // of the body's length: deeper inside, the nearest wall is taken whatever its side
+
+}  // namespace
+
+NarrowPhase::NarrowPhase(const State& state, const std::vector<Motion>& motions, std::span<const ContactPoint> previous,
+                         double dt)
+    : state_(state), motions_(motions), previous_(previous), dt_(dt)
+{
+}
+
+void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern, std::vector<ContactPoint>& found)
+{
+    a_ = &state_.bodies[bodyA];
+    b_ = &state_.bodies[bodyB];
+    if (b_->walls.count == 0) return;
+    frame_ = &state_.gridFrame(*b_);
+    const Motion& motionA = motions_[bodyA];
+    const Motion& motionB = motions_[bodyB];
+    const Index nodeB = b_->nodes.first;
+    ContactPoint contact = pattern;
+    contact.bodyA = bodyA;
+    contact.bodyB = bodyB;
+
+    gatherPoints(*a_, motionB.reach.inflated(motionA.range));
+    for (Index p : candidates_) {
+        const Vec2& at = state_.points.position[p];
+        const Index node = state_.points.node[p];
+        const Vec2 own = state_.nodes.velocityAt(node, at - state_.nodes.position[node]);
+        const Vec2 carried = motionB.velocity + motionB.omega * perpendicular(at - motionB.centre);
+        Approach approach;
+        approach.point = p;
+        approach.reach = (own - carried).norm() * dt_ + motionA.stray + motionB.stray + 4 * pattern.slop;
+        approach.at = at;
+        approach.normal = state_.points.normal[p];
+        if (a_->rigid) approach.normal = rotated(state_.nodes.rotation[a_->nodes.first], approach.normal);
+        if (b_->rigid) {
+            approach.at = unrotated(state_.nodes.rotation[nodeB], at - state_.nodes.position[nodeB]);
+            approach.normal = unrotated(state_.nodes.rotation[nodeB], approach.normal);
+        }
+        if (b_->grid.bounds().inflated(approach.reach).contains(approach.at)) touch(approach, contact, found);
+    }
+}
+
+double NarrowPhase::lean() const { return a_->rigid ? kRigidLean : kSoftLean; }
+
+void NarrowPhase::gatherPoints(const BodyRecord& a, const Box& near)
+{
+    candidates_.clear();
+    const auto take = [&](Index p) {
+        if (state_.points.collidable[p] && near.contains(state_.points.position[p])) candidates_.push_back(p);
+    };
+    if (a.points.count <= kManyPoints || !a.rigid || a.walls.count == 0) {
+        for (Index p = a.points.first; p < a.points.end(); ++p) take(p);
+        return;
+    }
+    // B's reach as a box in A's frame.
+    const Index node = a.nodes.first;
+    Box local;
+    for (const Vec2& corner : {near.min, near.max, Vec2(near.min.x(), near.max.y()), Vec2(near.max.x(), near.min.y())})
+        local.extend(unrotated(state_.nodes.rotation[node], corner - state_.nodes.position[node]));
+    a.grid.visit(local, [&](Index edge) {
+        take(state_.walls.first[a.walls.first + edge]);
+        take(state_.walls.second[a.walls.first + edge]);
+    });
+    std::sort(candidates_.begin(), candidates_.end());
+    candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+}
+
+bool NarrowPhase::view(Index wall, const Vec2& at, WallView& seen) const
+{
+    if (state_.walls.outward[wall] == 0) return false;
+    const Vec2& first = (*frame_)[state_.walls.first[wall]];
+    const Vec2 edge = (*frame_)[state_.walls.second[wall]] - first, offset = at - first;
+    const double squared = edge.squaredNorm();
+    if (!(squared > 1e-24)) return false;
+    seen.length = std::sqrt(squared);
+    seen.normal = perpendicular(edge) * (state_.walls.outward[wall] / seen.length);
+    seen.separation = offset.dot(seen.normal);
+    seen.along = offset.dot(edge) / squared;
+    seen.distance = (offset - std::clamp(seen.along, 0.0, 1.0) * edge).norm();
+    return true;
+}
+
+bool NarrowPhase::heldBefore(Index point, Index wall) const
+{
+    const std::uint64_t key = (static_cast<std::uint64_t>(point) << 32) | wall;
+    const auto at = std::lower_bound(previous_.begin(), previous_.end(), key,
+                                     [](const ContactPoint& c, std::uint64_t k) { return c.key() < k; });
+    return at != previous_.end() && at->key() == key && at->stepImpulse > 0;
+}
+
+void NarrowPhase::touch(const Approach& approach, const ContactPoint& pattern, std::vector<ContactPoint>& found)
+{
+    ContactPoint contact = pattern;
+    contact.point = approach.point;
+    bool onSurface = false;
+    const Vec2 span(approach.reach, approach.reach);
+    b_->grid.visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
+        WallView seen;
+        contact.wall = b_->walls.first + edge;
+        if (!view(contact.wall, approach.at, seen) || seen.separation < -kTouchDepth * pattern.slop ||
+            seen.distance > approach.reach)
+            return;
+        if (approach.normal.dot(seen.normal) > lean()) return;
+        onSurface |= seen.distance <= kTouchDepth * pattern.slop;
+        contact.firstInset = yields(contact.wall, state_.walls.firstEnd, state_.walls.previous, approach);
+        contact.secondInset = yields(contact.wall, state_.walls.secondEnd, state_.walls.next, approach);
+        found.push_back(contact);
+    });
+    // On the border "inside" is a matter of rounding; the walls found in front of the point answer for it.
+    if (onSurface || !b_->grid.inside(approach.at)) return;
+    contact.wall = wallToLeaveThrough(approach);
+    if (contact.wall == kNone) return;
+    contact.inside = true;
+    found.push_back(contact);
+}
+
+bool NarrowPhase::yields(Index wall, const std::vector<WallEnd>& ends, const std::vector<Index>& neighbours,
+                         const Approach& approach) const
+{
+    WallView seen;
+    return ends[wall] == WallEnd::Sharp && view(neighbours[wall], approach.at, seen) &&
+           approach.normal.dot(seen.normal) <= lean();
+}
+
+Index NarrowPhase::wallToLeaveThrough(const Approach& approach) const
+{
+    const double extent = b_->grid.bounds().size().maxCoeff();
+    for (double radius = approach.reach;; radius *= 2) {
+        Index nearest = kNone, opposed = kNone;
+        double nearestScore = radius, opposedScore = radius;
+        const Vec2 span(radius, radius);
+        b_->grid.visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
+            WallView seen;
+            const Index wall = b_->walls.first + edge;
+            if (!view(wall, approach.at, seen) || seen.separation >= 0 || seen.distance > radius) return;
+            const double score = seen.distance * (heldBefore(approach.point, wall) ? kHeldBonus : 1);
+            if (score < nearestScore) nearest = wall, nearestScore = score;
+            if (score < opposedScore && approach.normal.dot(seen.normal) <= 0) opposed = wall, opposedScore = score;
+        });
+        if (opposed != kNone && opposedScore <= kShallow * a_->length) return opposed;
+        if (nearest != kNone && (opposed != kNone || nearestScore > kShallow * a_->length || radius > extent))
+            return nearest;
+        if (radius > 2 * extent) return kNone;
+    }
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,86 @@
+#include "state.hpp"
+
+namespace jet::physics {
+
+void Nodes::add(Index ofBody, const Vec2& at, double nodeMass, double inverseMass, double inverseInertia)
+{
+    position.push_back(at);
+    velocity.push_back(Vec2(0, 0));
+    angle.push_back(0);
+    omega.push_back(0);
+    rotation.push_back(Vec2(1, 0));
+    mass.push_back(nodeMass);
+    invMass.push_back(inverseMass);
+    invInertia.push_back(inverseInertia);
+    force.push_back(Vec2(0, 0));
+    torque.push_back(0);
+    body.push_back(ofBody);
+}
+
+void updatePoints(State& state)
+{
+    for (Index p = 0; p < state.points.size(); ++p) state.points.position[p] = state.pointNow(p);
+}
+
+namespace {
+
+void readRigid(State& state, Index handle)
+{
+    const Index node = state.bodies[handle].nodes.first;
+    state.readings.position[handle] = state.nodes.position[node];
+    state.readings.velocity[handle] = state.nodes.velocity[node];
+    state.readings.angle[handle] = state.nodes.angle[node];
+    state.readings.omega[handle] = state.nodes.omega[node];
+}
+
+/// Best fit of a rigid motion: the angle that maximises sum m (R rest)·now, the rate that carries the angular momentum.
+void readSoft(State& state, Index handle)
+{
+    const BodyRecord& body = state.bodies[handle];
+    if (body.nodes.count == 0) return;
+    const Nodes& nodes = state.nodes;
+    Vec2 centre(0, 0), velocity(0, 0);
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+        centre += nodes.mass[n] * nodes.position[n];
+        velocity += nodes.mass[n] * nodes.velocity[n];
+    }
+    centre /= body.mass;
+    velocity /= body.mass;
+    double along = 0, across = 0, momentum = 0, inertia = 0;
+    for (Index i = 0; i < body.nodes.count; ++i) {
+        const Index n = body.nodes.first + i;
+        const Vec2 arm = nodes.position[n] - centre;
+        along += nodes.mass[n] * body.restArms[i].dot(arm);
+        across += nodes.mass[n] * cross(body.restArms[i], arm);
+        momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - velocity);
+        inertia += nodes.mass[n] * arm.squaredNorm();
+    }
+    double& angle = state.readings.angle[handle];
+    angle += wrapped(angleOf(across, along) - angle);
+    state.readings.position[handle] = centre;
+    state.readings.velocity[handle] = velocity;
+    state.readings.omega[handle] = inertia > 0 ? momentum / inertia : 0;
+}
+
+}  // namespace
+
+void updateReading(State& state, Index handle)
+{
+    const BodyRecord& body = state.bodies[handle];
+    if (body.rigid) {
+        readRigid(state, handle);
+    } else {
+        readSoft(state, handle);
+    }
+    Box& bounds = state.readings.bounds[handle];
+    bounds = Box();
+    for (Index p = body.points.first; p < body.points.end(); ++p) bounds.extend(state.points.position[p]);
+    if (body.points.count == 0) bounds.extend(state.readings.position[handle]);
+}
+
+void updateReadings(State& state)
+{
+    for (Index handle = 0; handle < state.bodies.size(); ++handle) updateReading(state, handle);
+}
+
+}  // namespace jet::physics

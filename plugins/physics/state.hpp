@@ -1,0 +1,119 @@
+// The world's data as structures of arrays, shared by the stages of a step.
+//
+// A node is what moves: a particle of a soft body, or the centre of mass of a rigid body. Only rigid nodes turn.
+// A point is what collides: a particle, or a vertex of a rigid border; it rides on a node at a fixed local offset.
+// A wall joins two points of one border. Handles of bodies, nodes, points and walls are indices into these arrays.
+#pragma once
+
+#include "edge_grid.hpp"
+#include "trigonometry.hpp"
+
+#include <jet/physics.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace jet::physics {
+
+using Index = std::uint32_t;
+inline constexpr Index kNone = 0xffffffffU;
+
+struct Nodes {
+    std::vector<Vec2> position;      // scene units
+    std::vector<Vec2> velocity;      // units / s
+    std::vector<double> angle;       // radians since the start; 0 for particles
+    std::vector<double> omega;       // rad / s; 0 for particles
+    std::vector<Vec2> rotation;      // (cos, sin) of angle
+    std::vector<double> mass;        // mass units
+    std::vector<double> invMass;     // 0: never moves
+    std::vector<double> invInertia;  // 0: never turns
+    std::vector<Vec2> force;         // of applyForce and actuators, for this step
+    std::vector<double> torque;
+    std::vector<Index> body;
+
+    std::size_t size() const { return position.size(); }
+    void add(Index ofBody, const Vec2& at, double nodeMass, double inverseMass, double inverseInertia);
+
+    Vec2 velocityAt(Index node, const Vec2& arm) const { return velocity[node] + omega[node] * perpendicular(arm); }
+    void applyImpulse(Index node, const Vec2& arm, const Vec2& impulse)
+    {
+        velocity[node] += invMass[node] * impulse;
+        omega[node] += invInertia[node] * cross(arm, impulse);
+    }
+};
+
+struct Points {
+    std::vector<Index> node;
+    std::vector<Vec2> local;     // from the node, in its frame; zero for particles
+    std::vector<Vec2> position;  // scene units; true after updatePoints()
+    std::vector<Vec2> normal;    // unit, out of the body at this point, in the frame of its grid; zero when unknown
+    std::vector<std::uint8_t> collidable;  // is it tested against other bodies?
+
+    std::size_t size() const { return node.size(); }
+};
+
+/// How far a wall is felt beyond its end: past a blunt corner (so that nothing slips through the gap between two
+/// walls), but not up to a sharp one (so that a body sliding over it is not caught by the wall behind the corner).
+enum class WallEnd : std::int8_t { Sharp = -1, Blunt = 1 };
+
+struct Walls {
+    std::vector<Index> first, second;   // points
+    std::vector<Index> previous, next;  // walls of the same border
+    std::vector<std::int8_t> outward;   // +1: outside lies at perpendicular(second - first); -1: opposite; 0: no wall
+    std::vector<WallEnd> firstEnd, secondEnd;
+
+    std::size_t size() const { return first.size(); }
+};
+
+struct Range {
+    Index first = 0, count = 0;
+    Index end() const { return first + count; }
+};
+
+struct BodyRecord {
+    bool rigid = false, fixed = false, sensor = false;
+    Index material = 0;
+    double gravityScale = 1;
+    double mass = 0;
+    double length = 1;  // typical size, scene units: tolerances are fractions of it
+    double radius = 0;  // rigid: farthest point from the centre, scene units
+    Range nodes, points, walls;
+    Range springs, angularSprings;  // into SoftSprings
+    std::vector<Vec2> restArms;     // soft: particles from the centre of mass at rest
+    EdgeGrid grid;                  // rigid: in the node's frame; soft: in the scene's, as of the last detection
+};
+
+/// What is read after a step, one entry a body.
+struct BodyReadings {
+    std::vector<Vec2> position, velocity;
+    std::vector<double> angle, omega;
+    std::vector<Box> bounds;
+    std::vector<Index> firstPoint{0};  // [bodies + 1]
+};
+
+struct State {
+    Nodes nodes;
+    Points points;
+    Walls walls;
+    std::vector<BodyRecord> bodies;
+    BodyReadings readings;
+
+    Vec2 pointNow(Index point) const
+    {
+        const Index node = points.node[point];
+        return nodes.position[node] + rotated(nodes.rotation[node], points.local[point]);
+    }
+    /// Wall ends in the frame of the body's grid.
+    const std::vector<Vec2>& gridFrame(const BodyRecord& body) const
+    {
+        return body.rigid ? points.local : points.position;
+    }
+};
+
+/// Moves the points after their nodes.
+void updatePoints(State&);
+/// Centre, angle, velocity, turning rate and box of each body, from its nodes and points.
+void updateReadings(State&);
+void updateReading(State&, Index body);
+
+}  // namespace jet::physics

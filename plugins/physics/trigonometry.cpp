@@ -1,0 +1,84 @@
+#include "trigonometry.hpp"
+
+#include <array>
+
+namespace jet::physics {
+
+namespace {
+
+// pi/2 in two parts: k * kHalfPiHigh is exact for |k| < 2^20, so the reduction keeps full precision for common angles.
+constexpr double kHalfPiHigh = 1.57079632673412561417;
+constexpr double kHalfPiLow = 6.07710050650619224932e-11;
+
+/// Taylor sums for |x| <= pi/4; the first term left out is below 1e-17.
+double sinNearZero(double x)
+{
+    const double q = x * x;
+    double sum = 1.0;
+    for (int n = 16; n >= 2; n -= 2) sum = 1.0 - sum * q / (n * (n + 1));
+    return x * sum;
+}
+
+double cosNearZero(double x)
+{
+    const double q = x * x;
+    double sum = 1.0;
+    for (int n = 17; n >= 1; n -= 2) sum = 1.0 - sum * q / (n * (n + 1));
+    return sum;
+}
+
+/// Arc tangent for x in [0, 1]: above tan(pi/12) reduced by pi/6, then its alternating series.
+double atanInUnit(double x)
+{
+    constexpr double kTanTwelfth = 0.26794919243112270647;
+    constexpr double kSqrt3 = 1.73205080756887729353;
+    double shift = 0;
+    if (x > kTanTwelfth) {
+        x = (x * kSqrt3 - 1) / (kSqrt3 + x);
+        shift = kPi / 6;
+    }
+    const double q = x * x;
+    double sum = 0;
+    for (int n = 27; n >= 1; n -= 2) sum = 1.0 / n - q * sum;
+    return shift + x * sum;
+}
+
+}  // namespace
+
+Vec2 direction(double angle)
+{
+    const double turns = std::floor(angle * (2 / kPi) + 0.5);
+    const double x = (angle - turns * kHalfPiHigh) - turns * kHalfPiLow;
+    const double c = cosNearZero(x), s = sinNearZero(x);
+    switch (static_cast<int>(turns - 4 * std::floor(turns / 4))) {
+    case 0: return {c, s};
+    case 1: return {-s, c};
+    case 2: return {-c, -s};
+    default: return {s, -c};
+    }
+}
+
+double angleOf(double y, double x)
+{
+    const double ax = std::abs(x), ay = std::abs(y);
+    if (ax == 0 && ay == 0) return 0;
+    double angle = ay <= ax ? atanInUnit(ay / ax) : kPi / 2 - atanInUnit(ax / ay);
+    if (x < 0) angle = kPi - angle;
+    return y < 0 ? -angle : angle;
+}
+
+double decay(double x)
+{
+    if (!(x > 0)) return 1;
+    if (x > 700) return 0;
+    int squarings = 0;
+    for (; x > 0.03125; x *= 0.5) ++squarings;
+    double sum = 1.0;
+    for (int n = 9; n >= 1; --n) sum = 1.0 - sum * x / n;
+    for (; squarings > 0; --squarings) sum *= sum;
+    return sum;
+}
+
+double wrapped(double angle) { return angle - 2 * kPi * std::floor(angle / (2 * kPi) + 0.5); }
+
+}  // namespace jet::physics

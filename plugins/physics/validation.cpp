@@ -1,0 +1,103 @@
+#include "validation.hpp"
+
+namespace jet::physics {
+
+namespace {
+
+// Beyond these, squares and products leave the range of double.
+constexpr double kFarthest = 1e12, kLargest = 1e30;
+
+[[noreturn]] void fail(std::string message) { throw Failure(Error("Physics: " + std::move(message))); }
+
+}  // namespace
+
+void requireFinite(std::string_view what, const Vec2& v)
+{
+    if (!(v.cwiseAbs().maxCoeff() <= kFarthest) || !isFinite(v))
+        fail(std::string(what) + " is not a finite vector of sensible size; give it two ordinary numbers.");
+}
+
+void requireFinite(std::string_view what, std::initializer_list<double> values)
+{
+    for (double value : values)
+        if (!(std::abs(value) <= kLargest))
+            fail(std::string(what) + " is not a finite number of sensible size; give it an ordinary one.");
+}
+
+void requireBelow(std::string_view what, std::size_t index, std::size_t count)
+{
+    if (index >= count)
+        fail(std::string(what) + " " + std::to_string(index) + " does not exist; there are " + std::to_string(count) +
+             ".");
+}
+
+void requireSpring(std::string_view what, double restLength, double ks, double kd, double tearRatio)
+{
+    requireFinite(what, {restLength, ks, kd, tearRatio});
+    if (ks < 0 || kd < 0)
+        fail(std::string(what) + ": stiffness and damping must not be negative, or it would gain energy.");
+}
+
+void validate(const WorldSettings& settings)
+{
+    requireFinite("gravity", settings.gravity);
+    requireFinite("the world's damping", {settings.linearDamping, settings.angularDamping});
+    if (settings.linearDamping < 0 || settings.angularDamping < 0) fail("the world's damping must not be negative.");
+    const std::size_t wanted = static_cast<std::size_t>(settings.materialCount) * settings.materialCount;
+    if (settings.materialCount == 0 || settings.materials.size() != wanted)
+        fail("the materials table has " + std::to_string(settings.materials.size()) + " entries; " +
+             std::to_string(settings.materialCount) + " materials need " + std::to_string(wanted) + ".");
+    for (const MaterialPair& pair : settings.materials) {
+        requireFinite("a material's friction or restitution", {pair.friction, pair.restitution});
+        if (pair.friction < 0 || pair.restitution < 0)
+            fail("a material's friction and restitution must not be negative.");
+    }
+}
+
+void validate(const BodyCommon& common, const WorldSettings& settings)
+{
+    requireBelow("material", common.material, settings.materialCount);
+    requireFinite("a body's initial velocity", common.velocity);
+    requireFinite("a body's initial turning rate or gravity scale", {common.omega, common.gravityScale});
+}
+
+void validate(const SoftBodyDef& def, const WorldSettings& settings)
+{
+    validate(def.common, settings);
+    const std::size_t count = def.particles.size();
+    if (def.masses.size() != count || (!def.movable.empty() && def.movable.size() != count))
+        fail("a soft body of " + std::to_string(count) +
+             " particles needs as many masses, and as many movable flags or none.");
+    for (const Vec2& at : def.particles) requireFinite("a particle's position", at);
+    for (double mass : def.masses) {
+        requireFinite("a particle's mass", {mass});
+        if (!(mass > 0)) fail("a particle's mass must be greater than 0.");
+    }
+    for (const auto& border : def.borders)
+        for (std::uint32_t index : border) requireBelow("a border's particle", index, count);
+    for (const SpringDef& spring : def.springs) {
+        requireBelow("a spring's particle", std::max(spring.a, spring.b), count);
+        requireSpring("a spring", spring.restLength, spring.ks, spring.kd, spring.tearRatio);
+    }
+    for (const AngularSpringDef& spring : def.angularSprings) {
+        requireBelow("an angular spring's particle", std::max({spring.a, spring.centre, spring.b}), count);
+        requireSpring("an angular spring", spring.restAngle, spring.ks, spring.kd, 0);
+    }
+}
+
+void validate(const RigidBodyDef& def, const WorldSettings& settings)
+{
+    validate(def.common, settings);
+    requireFinite("a rigid body's mass", {def.mass});
+    if (!(def.mass > 0)) fail("a rigid body's mass must be greater than 0.");
+    for (const auto& border : def.borders)
+        for (const Vec2& at : border) requireFinite("a rigid body's border point", at);
+}
+
+void validate(const Anchor& anchor, std::size_t bodyCount)
+{
+    if (anchor.body != kNoHandle) requireBelow("an anchor's body", anchor.body, bodyCount);
+    requireFinite("an anchor's point", anchor.point);
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,195 @@
+#include "world.hpp"
+
+#include "border.hpp"
+#include "validation.hpp"
+
+#include <numeric>
+
+namespace jet::physics {
+
+World::World(const WorldSettings& settings) : settings_(settings) { validate(settings); }
+
+BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
+{
+    BodyRecord body;
+    body.rigid = rigid;
+    body.fixed = common.fixed;
+    body.sensor = common.sensor;
+    body.material = common.material;
+    body.gravityScale = common.gravityScale;
+    body.nodes.first = static_cast<Index>(state_.nodes.size());
+    body.points.first = static_cast<Index>(state_.points.size());
+    body.walls.first = static_cast<Index>(state_.walls.size());
+    body.springs.first = springs_.springCount();
+    body.angularSprings.first = springs_.angularCount();
+    return state_.bodies.emplace_back(std::move(body));
+}
+
+void World::addPoint(Index node, const Vec2& local, const Vec2& position)
+{
+    Points& points = state_.points;
+    points.node.push_back(node);
+    points.local.push_back(local);
+    points.position.push_back(position);
+    points.normal.push_back(Vec2(0, 0));
+    points.collidable.push_back(0);
+}
+
+namespace {
+
+/// The side of a square as large as the region; for bodies without area, a part of their extent.
+double typicalLength(const Region& region, const Box& bounds)
+{
+    if (region.area > 0) return std::sqrt(region.area);
+    const double extent = bounds.isNull() ? 0 : bounds.size().maxCoeff();
+    return extent > 0 ? 0.1 * extent : 1;
+}
+
+}  // namespace
+
+BodyHandle World::addSoftBody(const SoftBodyDef& def)
+{
+    validate(def, settings_);
+    const auto handle = static_cast<BodyHandle>(state_.bodies.size());
+    BodyRecord& body = newBody(def.common, false);
+    const auto count = static_cast<Index>(def.particles.size());
+    body.nodes.count = body.points.count = count;
+    for (Index i = 0; i < count; ++i) {
+        const bool moves = !def.common.fixed && (def.movable.empty() || def.movable[i] != 0);
+        state_.nodes.add(handle, def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0, 0);
+        addPoint(body.nodes.first + i, Vec2(0, 0), def.particles[i]);
+    }
+    body.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
+    Vec2 centre(0, 0);
+    for (Index i = 0; i < count; ++i) centre += def.masses[i] / body.mass * def.particles[i];
+    for (Index i = 0; i < count; ++i) body.restArms.push_back(def.particles[i] - centre);
+
+    std::vector<std::vector<Index>> rings = def.borders;
+    for (auto& ring : rings)
+        for (Index& index : ring) index += body.points.first;
+    addBorders(state_, body, rings);
+    Box bounds;
+    for (const Vec2& at : def.particles) bounds.extend(at);
+    body.length = typicalLength(measureRegion(state_, body), bounds);
+
+    for (const SpringDef& spring : def.springs) springs_.add(spring, body.nodes.first);
+    for (const AngularSpringDef& spring : def.angularSprings) springs_.add(state_, spring, body.nodes.first);
+    body.springs.count = static_cast<Index>(def.springs.size());
+    body.angularSprings.count = static_cast<Index>(def.angularSprings.size());
+    return finishBody(def.common);
+}
+
+BodyHandle World::addRigidBody(const RigidBodyDef& def)
+{
+    validate(def, settings_);
+    const auto handle = static_cast<BodyHandle>(state_.bodies.size());
+    BodyRecord& body = newBody(def.common, true);
+    body.nodes.count = 1;
+    state_.nodes.add(handle, Vec2(0, 0), def.mass, 0, 0);
+    std::vector<std::vector<Index>> rings;
+    for (const auto& border : def.borders) {
+        auto& ring = rings.emplace_back(border.size());
+        std::iota(ring.begin(), ring.end(), static_cast<Index>(state_.points.size()));
+        for (const Vec2& at : border) addPoint(body.nodes.first, at, at);
+    }
+    body.points.count = static_cast<Index>(state_.points.size()) - body.points.first;
+    addBorders(state_, body, rings);
+    setRigidMass(body, def);
+    return finishBody(def.common);
+}
+
+/// Puts the node at the centre of mass and makes the points local to it. Borders without area count as equal masses at
+/// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
+void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def)
+{
+    const Region region = measureRegion(state_, body);
+    auto& local = state_.points.local;
+    Box bounds;
+    Vec2 centre(0, 0);
+    for (Index p = body.points.first; p < body.points.end(); ++p) {
+        bounds.extend(local[p]);
+        centre += local[p] / body.points.count;
+    }
+    body.length = typicalLength(region, bounds);
+    double second = region.inertia;
+    if (region.area > 0) centre = region.centroid;
+    for (Index p = body.points.first; p < body.points.end(); ++p) {
+        local[p] -= centre;
+        body.radius = std::max(body.radius, local[p].norm());
+        if (!(region.area > 0)) second += local[p].squaredNorm() / body.points.count;
+    }
+    if (!(second > 1e-12 * body.length * body.length)) second = body.length * body.length / 6;
+    rebuildGrid(state_, body);
+
+    const Index node = body.nodes.first;
+    body.mass = def.mass;
+    state_.nodes.position[node] = centre;
+    if (def.common.fixed) return;
+    state_.nodes.invMass[node] = 1 / def.mass;
+    state_.nodes.invInertia[node] = 1 / (def.mass * second);
+}
+
+BodyHandle World::finishBody(const BodyCommon& common)
+{
+    const auto handle = static_cast<BodyHandle>(state_.bodies.size() - 1);
+    BodyReadings& readings = state_.readings;
+    readings.position.push_back(Vec2(0, 0));
+    readings.velocity.push_back(Vec2(0, 0));
+    readings.angle.push_back(0);
+    readings.omega.push_back(0);
+    readings.bounds.push_back(Box());
+    readings.firstPoint.push_back(static_cast<Index>(state_.points.size()));
+    stepForces_.resize(state_.nodes.size());
+    fastest_ = -1;
+    updateReading(state_, handle);
+    setVelocity(handle, common.velocity);
+    setOmega(handle, common.omega);
+    return handle;
+}
+
+namespace {
+
+void validate(const SpringActuatorDef& def, std::size_t bodies)
+{
+    physics::validate(def.a, bodies);
+    physics::validate(def.b, bodies);
+    requireSpring("a spring between bodies", def.restLength, def.ks, def.kd, def.tearRatio);
+}
+
+void validate(const AngularSpringActuatorDef& def, std::size_t bodies)
+{
+    for (const Anchor* anchor : {&def.a, &def.centre, &def.b}) physics::validate(*anchor, bodies);
+    requireSpring("an angular spring between bodies", def.restAngle, def.ks, def.kd, 0);
+}
+
+}  // namespace
+
+ActuatorHandle World::addSpring(const SpringActuatorDef& def)
+{
+    validate(def, bodyCount());
+    fastest_ = -1;
+    return actuators_.add(state_, def);
+}
+
+ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
+{
+    validate(def, bodyCount());
+    fastest_ = -1;
+    return actuators_.add(state_, def);
+}
+
+ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
+{
+    physics::validate(def.at, bodyCount());
+    requireFinite("a torque", {def.value});
+    return actuators_.add(state_, def);
+}
+
+ActuatorHandle World::addForce(const ForceActuatorDef& def)
+{
+    physics::validate(def.at, bodyCount());
+    requireFinite("a force", def.force);
+    return actuators_.add(state_, def);
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,77 @@
+// One simulated scene: keeps the stages of a step and runs them in order (thesis §2.4.3.8; SPEC PH10).
+#pragma once
+
+#include "actuators.hpp"
+#include "contact_finder.hpp"
+#include "soft_springs.hpp"
+#include "state.hpp"
+
+namespace jet::physics {
+
+class World final : public PhysicsWorld {
+public:
+    explicit World(const WorldSettings&);
+
+    BodyHandle addSoftBody(const SoftBodyDef&) override;
+    BodyHandle addRigidBody(const RigidBodyDef&) override;
+    ActuatorHandle addSpring(const SpringActuatorDef&) override;
+    ActuatorHandle addAngularSpring(const AngularSpringActuatorDef&) override;
+    ActuatorHandle addTorque(const TorqueActuatorDef&) override;
+    ActuatorHandle addForce(const ForceActuatorDef&) override;
+
+    void step(double dt) override;
+
+    std::size_t bodyCount() const override { return state_.bodies.size(); }
+    BodyStates bodies() const override;
+    std::span<const Contact> contacts() const override { return reports_; }
+    StepStats stats() const override { return stats_; }
+    bool touching(BodyHandle a, BodyHandle b) const override;
+    bool contains(BodyHandle body, const Vec2& point) const override;
+
+    void setTorque(ActuatorHandle torque, double value) override;
+    void setForce(ActuatorHandle force, const Vec2& value) override;
+    void applyForce(BodyHandle body, const Vec2& force) override;
+    void applyImpulse(BodyHandle body, const Vec2& impulse) override;
+    void setVelocity(BodyHandle body, const Vec2& velocity) override;
+    void setOmega(BodyHandle body, double omega) override;
+    void setPosition(BodyHandle body, const Vec2& centre) override;
+    void setGravity(const Vec2& gravity) override;
+
+    bool springAlive(BodyHandle body, std::uint32_t index) const override;
+
+    std::uint64_t hash() const override;
+    std::vector<std::byte> save() const override;
+    void restore(std::span<const std::byte> bytes) override;
+
+private:
+    BodyRecord& newBody(const BodyCommon&, bool rigid);
+    void addPoint(Index node, const Vec2& local, const Vec2& position);
+    BodyHandle finishBody(const BodyCommon&);
+    void setRigidMass(BodyRecord&, const RigidBodyDef&);
+
+    void prepareStiffness();
+    void substep(double h, int index);
+    void report();
+    void reportContact(const ContactPoint&);
+
+    template <class Self, class Archive>
+    static void archive(Self& self, Archive& with);
+
+    WorldSettings settings_;
+    State state_;
+    SoftSprings springs_;
+    Actuators actuators_;
+    ContactFinder finder_;
+    std::vector<ContactPoint> contacts_;
+    std::vector<ContactPoint> ended_;  // pushed in this step, but are over
+    std::vector<Vec2> stepForces_;     // [nodes] of applyForce, for the next step only
+    std::vector<Contact> reports_;
+    std::vector<std::uint64_t> touching_;  // sorted pairs of handles, the smaller one high
+    StepStats stats_;
+
+    StiffnessBounds bounds_;
+    double fastest_ = -1;     // rad / s; < 0: not known since something was added
+    double preparedFor_ = 0;  // substep the springs are prepared for, seconds
+};
+
+}  // namespace jet::physics

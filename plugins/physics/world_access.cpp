@@ -1,0 +1,178 @@
+// Reading the world and acting on it between steps; its snapshots.
+#include "snapshot.hpp"
+#include "validation.hpp"
+#include "world.hpp"
+
+namespace jet::physics {
+
+BodyStates World::bodies() const
+{
+    const BodyReadings& readings = state_.readings;
+    return {readings.position, readings.angle,      readings.velocity,     readings.omega,
+            readings.bounds,   readings.firstPoint, state_.points.position};
+}
+
+bool World::touching(BodyHandle a, BodyHandle b) const
+{
+    const std::uint64_t pair = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
+    return std::binary_search(touching_.begin(), touching_.end(), pair);
+}
+
+bool World::contains(BodyHandle handle, const Vec2& point) const
+{
+    requireBelow("body", handle, bodyCount());
+    if (!isFinite(point)) return false;
+    const BodyRecord& body = state_.bodies[handle];
+    if (body.rigid) {
+        const Index node = body.nodes.first;
+        return body.grid.inside(unrotated(state_.nodes.rotation[node], point - state_.nodes.position[node]));
+    }
+    std::vector<EdgeGrid::Edge> edges;
+    for (Index w = body.walls.first; w < body.walls.end(); ++w)
+        edges.push_back(
+            {state_.points.position[state_.walls.first[w]], state_.points.position[state_.walls.second[w]]});
+    return insideOdd(edges, point);
+}
+
+void World::setTorque(ActuatorHandle torque, double value)
+{
+    requireBelow("torque", torque, actuators_.torqueCount());
+    requireFinite("a torque", {value});
+    actuators_.setTorque(torque, value);
+}
+
+void World::setForce(ActuatorHandle force, const Vec2& value)
+{
+    requireBelow("force", force, actuators_.forceCount());
+    requireFinite("a force", value);
+    actuators_.setForce(force, value);
+}
+
+void World::applyForce(BodyHandle handle, const Vec2& force)
+{
+    requireBelow("body", handle, bodyCount());
+    requireFinite("a force", force);
+    const BodyRecord& body = state_.bodies[handle];
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+        stepForces_[n] += state_.nodes.mass[n] / body.mass * force;
+}
+
+void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
+{
+    requireBelow("body", handle, bodyCount());
+    requireFinite("an impulse", impulse);
+    const BodyRecord& body = state_.bodies[handle];
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+        if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / body.mass;
+    updateReading(state_, handle);
+}
+
+void World::setVelocity(BodyHandle handle, const Vec2& velocity)
+{
+    requireBelow("body", handle, bodyCount());
+    requireFinite("a velocity", velocity);
+    const BodyRecord& body = state_.bodies[handle];
+    const Vec2 change = velocity - state_.readings.velocity[handle];
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+        if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += change;
+    updateReading(state_, handle);
+}
+
+void World::setOmega(BodyHandle handle, double omega)
+{
+    requireBelow("body", handle, bodyCount());
+    requireFinite("a turning rate", {omega});
+    const BodyRecord& body = state_.bodies[handle];
+    const double change = omega - state_.readings.omega[handle];
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+        if (state_.nodes.invMass[n] == 0) continue;
+        if (body.rigid) {
+            state_.nodes.omega[n] = omega;
+        } else {
+            state_.nodes.velocity[n] +=
+                change * perpendicular(state_.nodes.position[n] - state_.readings.position[handle]);
+        }
+    }
+    updateReading(state_, handle);
+}
+
+void World::setPosition(BodyHandle handle, const Vec2& centre)
+{
+    requireBelow("body", handle, bodyCount());
+    requireFinite("a position", centre);
+    const BodyRecord& body = state_.bodies[handle];
+    const Vec2 shift = centre - state_.readings.position[handle];
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
+    for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.position[p] = state_.pointNow(p);
+    updateReading(state_, handle);
+}
+
+void World::setGravity(const Vec2& gravity)
+{
+    requireFinite("gravity", gravity);
+    settings_.gravity = gravity;
+}
+
+bool World::springAlive(BodyHandle handle, std::uint32_t index) const
+{
+    requireBelow("body", handle, bodyCount());
+    requireBelow("spring", index, state_.bodies[handle].springs.count);
+    return springs_.alive(state_.bodies[handle].springs.first + index);
+}
+
+template <class Self, class Archive>
+void World::archive(Self& self, Archive& with)
+{
+    auto& nodes = self.state_.nodes;
+    with(nodes.position);
+    with(nodes.velocity);
+    with(nodes.angle);
+    with(nodes.omega);
+    with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
+    self.springs_.archive(with);
+    self.actuators_.archive(with);
+    with(self.stepForces_);
+    with(self.settings_.gravity);
+    with.list(self.contacts_, [&](ContactPoint& c) {
+        with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.active), with(c.engaged), with(c.along);
+        with(c.normalImpulse), with(c.tangentImpulse), with(c.stepImpulse);
+    });
+    with.list(self.reports_, [&](Contact& c) {
+        with(c.bodyA), with(c.bodyB), with(c.particle), with(c.wall), with(c.point), with(c.edgeParameter),
+            with(c.normal);
+        with(c.penetration), with(c.impulse);
+    });
+    with.list(self.touching_, [&](std::uint64_t& pair) { with(pair); });
+}
+
+std::vector<std::byte> World::save() const
+{
+    SaveArchive archiveOut;
+    archive(const_cast<World&>(*this), archiveOut);  // stages offer one list for both directions; saving only reads
+    return archiveOut.take();
+}
+
+std::uint64_t World::hash() const { return hashOf(save()); }
+
+void World::restore(std::span<const std::byte> bytes)
+{
+    const std::vector<std::byte> before = save();
+    const auto read = [this](std::span<const std::byte> from) {
+        RestoreArchive archiveIn(from);
+        archive(*this, archiveIn);
+        if (!archiveIn.finished()) RestoreArchive::fail();
+        for (const ContactPoint& c : contacts_)
+            if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
+    };
+    try {
+        read(bytes);
+    } catch (...) {
+        read(before);
+        throw;
+    }
+    for (Index n = 0; n < state_.nodes.size(); ++n) state_.nodes.rotation[n] = direction(state_.nodes.angle[n]);
+    updatePoints(state_);
+    updateReadings(state_);
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,134 @@
+// A step: forces, then substeps of (velocities, springs, contacts, positions), then what the step shows.
+#include "contact_solver.hpp"
+#include "integrator.hpp"
+#include "validation.hpp"
+#include "world.hpp"
+
+#include <chrono>
+
+namespace jet::physics {
+
+namespace {
+
+class Stopwatch {
+public:
+    explicit Stopwatch(double& milliseconds) : milliseconds_(milliseconds) {}
+    ~Stopwatch()
+    {
+        milliseconds_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    double& milliseconds_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void World::step(double dt)
+{
+    requireFinite("the time step", {dt});
+    if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
+    stats_ = StepStats();
+    ended_.clear();
+    prepareStiffness();
+    const int count = substepsFor(dt, fastest_);
+    const double h = dt / count;
+    if (h != preparedFor_) {
+        springs_.prepare(state_, bounds_, h);
+        actuators_.prepare(bounds_, h);
+        // Warm-start impulses are per substep: scaled, they stand for the same force.
+        const double ratio = preparedFor_ > 0 ? h / preparedFor_ : 1;
+        for (ContactPoint& c : contacts_) c.normalImpulse *= ratio, c.tangentImpulse *= ratio;
+        preparedFor_ = h;
+    }
+
+    double soughtAt = 0;
+    for (int i = 0; i < count; ++i) {
+        const double now = i * h;
+        if (!settings_.findCollisions) {
+            contacts_.clear();
+        } else if (i == 0 || finder_.strayed(state_, now - soughtAt)) {
+            if (i == 0) {
+                finder_.find(state_, settings_, dt, contacts_, stats_);
+                for (ContactPoint& c : contacts_) c.stepImpulse = 0;
+            } else {
+                finder_.find(state_, settings_, dt - now, contacts_, stats_);
+                finder_.collectEnded(contacts_, ended_);
+            }
+            soughtAt = now;
+        }
+        substep(h, i);
+    }
+    std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
+    updatePoints(state_);
+    updateReadings(state_);
+    report();
+}
+
+/// What depends on which springs there are, worked out again only after something was added.
+void World::prepareStiffness()
+{
+    if (fastest_ >= 0) return;
+    bounds_.reset(state_.nodes.size());
+    springs_.addTo(bounds_, state_);
+    actuators_.addTo(bounds_, state_);
+    fastest_ = bounds_.fastest();
+    preparedFor_ = 0;
+}
+
+void World::substep(double h, int index)
+{
+    {
+        const Stopwatch watch(stats_.springsMs);
+        state_.nodes.force = stepForces_;
+        std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
+        actuators_.addForces(state_);
+        integrateVelocities(state_, settings_, h);
+        const bool backwards = index % 2 == 1;
+        springs_.apply(state_, h, backwards);
+        actuators_.applySprings(state_, h, backwards);
+    }
+    const Stopwatch watch(stats_.solverMs);
+    ContactSolver solver(state_, h, settings_.applyGravity ? settings_.gravity.norm() : 0);
+    solver.prepare(contacts_);
+    solver.solve(contacts_);
+    integratePositions(state_, h);
+    solver.relax(contacts_);
+    solver.restitute(contacts_);
+}
+
+void World::report()
+{
+    reports_.clear();
+    touching_.clear();
+    for (const ContactPoint& c : contacts_) reportContact(c);
+    for (const ContactPoint& c : ended_) reportContact(c);
+    std::sort(touching_.begin(), touching_.end());
+    touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
+    stats_.contacts = static_cast<std::uint32_t>(reports_.size());
+}
+
+/// What pushed in this step is told, and what lies on or in a wall without pushing (sensors; collisions not resolved).
+void World::reportContact(const ContactPoint& c)
+{
+    const Points& points = state_.points;
+    const Vec2& first = points.position[state_.walls.first[c.wall]];
+    const Vec2 edge = points.position[state_.walls.second[c.wall]] - first;
+    const double squared = edge.squaredNorm();
+    if (!(squared > 0)) return;
+    const Vec2& at = points.position[c.point];
+    const Vec2 normal = perpendicular(edge) * (state_.walls.outward[c.wall] / std::sqrt(squared));
+    const double separation = (at - first).dot(normal), along = (at - first).dot(edge) / squared;
+    const bool onWall = (c.inside || (along >= 0 && along <= 1)) && separation <= c.slop &&
+                        (c.inside || c.engaged || separation >= -kTouchDepth * c.slop);
+    if (!(c.stepImpulse > 0) && !onWall) return;
+    reports_.push_back({c.bodyA, c.bodyB, c.point - state_.bodies[c.bodyA].points.first,
+                        state_.walls.first[c.wall] - state_.bodies[c.bodyB].points.first, at,
+                        std::clamp(along, 0.0, 1.0), normal, -separation, c.stepImpulse});
+    touching_.push_back((static_cast<std::uint64_t>(std::min(c.bodyA, c.bodyB)) << 32) | std::max(c.bodyA, c.bodyB));
+}
+
+}  // namespace jet::physics
