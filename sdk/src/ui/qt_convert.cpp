@@ -20,7 +20,7 @@ constexpr double kMostDashes = 100'000;
 // 1,024 colours Qt takes from a gradient.
 constexpr double kHardEdge = 1e-6;
 
-QGradientStops toQt(const std::vector<GradientStop>& stops)
+QGradientStops stopsOf(const std::vector<GradientStop>& stops)
 {
     QGradientStops result;
     double last = -kHardEdge;
@@ -33,7 +33,7 @@ QGradientStops toQt(const std::vector<GradientStop>& stops)
 
 QBrush finished(QGradient& gradient, const std::vector<GradientStop>& stops, const Brush& brush)
 {
-    gradient.setStops(toQt(stops));
+    gradient.setStops(stopsOf(stops));
     gradient.setInterpolationMode(QGradient::ComponentInterpolation);  // not premultiplied, as SVG has it
     gradient.setSpread(brush.spread == GradientSpread::Reflect  ? QGradient::ReflectSpread
                        : brush.spread == GradientSpread::Repeat ? QGradient::RepeatSpread

@@ -1,0 +1,277 @@
+#include "drawing.hpp"
+
+#include "shapes.hpp"
+#include "transform.hpp"
+
+#include <algorithm>
+
+namespace jet::svg {
+
+namespace {
+
+constexpr int kDeepest = 200;              // containers within one another; deeper ones are drawn into the last
+constexpr std::size_t kMostUses = 50'000;  // references followed in all ("use bomb")
+constexpr std::size_t kMostUsesNested = 32;
+constexpr std::size_t kMostItems = 1'000'000;
+constexpr std::size_t kProgressStep = 1024;  // elements
+
+// SVG 2, section 5.9.2: does the user read that language? JET reads English.
+bool acceptsLanguage(std::string_view list)
+{
+    while (!list.empty()) {
+        const std::size_t comma = std::min(list.find(','), list.size());
+        const std::string_view language = trimmed(list.substr(0, comma));
+        if (language == "en" || language.starts_with("en-")) return true;
+        list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+    return false;
+}
+
+bool passesConditions(const Element& element)
+{
+    if (element.has("requiredExtensions")) return false;
+    return !element.has("systemLanguage") || acceptsLanguage(element.attribute("systemLanguage"));
+}
+
+std::string_view unsupported(Tag tag)
+{
+    switch (tag) {
+    case Tag::Text: return "text is not drawn";
+    case Tag::Image: return "images are not drawn, and no file is read for them";
+    case Tag::ForeignObject: return "content that is not SVG is not drawn";
+    default: return {};
+    }
+}
+
+Box boundsOf(const Box& box, const Affine& m) { return Path::rectangle(box).transformed(m).bounds(); }
+
+}  // namespace
+
+Drawing::Drawing(const Document& document, ImportRequest& request, Report& report)
+    : document_(document), request_(request), report_(report), styles_(document),
+      shapes_(document, styles_, request, report)
+{
+}
+
+Result<void> Drawing::draw()
+{
+    if (!openOutermost()) return {};
+    for (std::size_t step = 0; !frames_.empty() && !full_; ++step) {
+        Frame& frame = frames_.back();
+        if (frame.cursor >= frame.end) {
+            close();
+            continue;
+        }
+        const ElementIndex e = frame.cursor;
+        frame.cursor = document_[e].next;
+        visit(e, frame.place, {});
+        full_ = shapes_.count() + containers_ > kMostItems;
+        const double done = double(e) / double(document_.elements().size());
+        if (step % kProgressStep == 0 && !request_.progress(done)) return Error("The import was cancelled.");
+    }
+    if (full_) report_.note("the drawing has more than a million items; the rest is left out", 0);
+    if (pageUnknown_) setPage(request_.parent.bounds().isNull() ? Vec2(0, 0) : request_.parent.bounds().max);
+    return {};
+}
+
+bool Drawing::openOutermost()
+{
+    const Element& root = document_[0];
+    Place place;
+    place.container = &request_.parent;
+    place.lengths = {Vec2(100, 100), Vec2(100, 100), place.style.fontSize};
+    place.style = styles_.compute(0, place.style, place.lengths);
+    const std::optional<Viewport> viewport = outermostViewport(root, place.style.fontSize);
+    if (!viewport) {
+        report_.note("the drawing has a width or height of zero or below; nothing of it is shown",
+                     document_.offsetOf(0));
+        return false;
+    }
+    place.lengths = {viewport->userSize, viewport->userSize, place.style.fontSize};
+    const Affine own = parseTransform(root.attribute("transform")).value_or(Affine());
+    place.toScene = Affine(own * viewport->toOuter);
+    place.opacity = place.style.opacity;
+    const bool empty = request_.parent.bounds().isNull();  // a drawing put into another does not change the page
+    pageUnknown_ = empty && !viewport->sized;
+    if (empty && viewport->sized) setPage(viewport->size);
+    noteUnsupported(0, place.style);
+    if (!place.style.display) return false;
+    frames_.push_back({1, root.next, std::move(place), 0, {}, 0});
+    return true;
+}
+
+void Drawing::setPage(const Vec2& size)
+{
+    try {
+        request_.edit.setScene("page-width", size.x());
+        request_.edit.setScene("page-height", size.y());
+    } catch (const Failure& failure) {
+        report_.note("the size of the page is not kept: " + failure.error().message, 0);
+    }
+}
+
+void Drawing::visit(ElementIndex e, const Place& around, std::string_view name)
+{
+    const Element& element = document_[e];
+    const bool isContainer = element.tag == Tag::Group || element.tag == Tag::Anchor || element.tag == Tag::Switch ||
+                             element.tag == Tag::Use || element.tag == Tag::Svg;
+    const std::string_view problem = unsupported(element.tag);
+    if ((!isContainer && !isShape(element.tag) && problem.empty()) || !passesConditions(element)) return;
+    Place place = around;
+    place.style = styles_.compute(e, around.style, around.lengths);
+    place.lengths.fontSize = place.style.fontSize;
+    if (!problem.empty()) {
+        if (place.style.display) report_.count(problem, document_.offsetOf(e));
+        return;
+    }
+    const std::string_view transform =
+        place.style.transform.empty() ? element.attribute("transform") : place.style.transform;
+    if (!transform.empty()) place.toScene = Affine(place.toScene * parseTransform(transform).value_or(Affine()));
+    place.opacity *= place.style.opacity;
+    place.shown = around.shown && place.style.display;
+    noteUnsupported(e, place.style);
+    if (name.empty()) name = element.label();
+
+    switch (element.tag) {
+    case Tag::Group:
+    case Tag::Anchor: open(e, std::move(place), name, e + 1, element.next); break;
+    case Tag::Switch: visitSwitch(e, place, name); break;
+    case Tag::Svg: visitViewport(e, kNoElement, std::move(place), name); break;
+    case Tag::Use: visitUse(e, std::move(place), name); break;
+    default: shapes_.add(e, name, place); break;
+    }
+}
+
+void Drawing::visitSwitch(ElementIndex e, const Place& place, std::string_view name)
+{
+    for (ElementIndex child = e + 1; child < document_[e].next; child = document_[child].next) {
+        const Tag tag = document_[child].tag;
+        if (tag == Tag::Foreign || tag == Tag::Unknown || !passesConditions(document_[child])) continue;
+        open(e, place, name, child, document_[child].next);
+        return;
+    }
+}
+
+void Drawing::visitUse(ElementIndex use, Place place, std::string_view name)
+{
+    const Element& element = document_[use];
+    const std::string_view href = element.href();
+    const ElementIndex target = document_.findReference(href);
+    if (target == kNoElement) {
+        const bool outside = !href.empty() && !href.starts_with('#');
+        report_.count(outside ? "a reference leads to another file, which is not read; it is left out"
+                              : "a reference leads to nothing in this drawing; it is left out",
+                      document_.offsetOf(use));
+        return;
+    }
+    if (isRecursive(use, target)) {
+        report_.count("a reference leads back to itself; it is left out", document_.offsetOf(use));
+        return;
+    }
+    if (++usesFollowed_ > kMostUses) {
+        report_.count("the drawing has more than 50000 references that lead to references; the rest is left out",
+                      document_.offsetOf(use));
+        return;
+    }
+    const auto offset = [&](const char* attribute, Axis axis) {
+        return parseLength(element.attribute(attribute), place.lengths, axis).value_or(0);
+    };
+    place.toScene = Affine(place.toScene * Affine::translation({offset("x", Axis::X), offset("y", Axis::Y)}));
+
+    const std::size_t framesBefore = frames_.size();
+    uses_.push_back(use);
+    const Tag tag = document_[target].tag;
+    if (tag == Tag::Symbol || tag == Tag::Svg) {
+        Place inner = place;
+        inner.style = styles_.compute(target, place.style, place.lengths);
+        inner.opacity *= inner.style.opacity;
+        inner.shown = place.shown && inner.style.display;
+        visitViewport(target, use, std::move(inner), name);
+    } else {
+        visit(target, place, name);
+    }
+    if (frames_.size() > framesBefore) {
+        ++frames_[framesBefore].usesEnded;
+    } else {
+        uses_.pop_back();
+    }
+}
+
+bool Drawing::isRecursive(ElementIndex use, ElementIndex target) const
+{
+    return document_.contains(target, use) || uses_.size() >= kMostUsesNested ||
+           std::find(uses_.begin(), uses_.end(), use) != uses_.end();
+}
+
+void Drawing::visitViewport(ElementIndex e, ElementIndex use, Place place, std::string_view name)
+{
+    const std::optional<Viewport> viewport =
+        innerViewport(document_[e], use == kNoElement ? nullptr : &document_[use], place.lengths);
+    if (!viewport) return;
+    const Affine outer = place.toScene;
+    const Vec2 corner = document_[e].tag == Tag::Symbol
+                            ? Vec2(0, 0)
+                            : Vec2(parseLength(document_[e].attribute("x"), place.lengths, Axis::X).value_or(0),
+                                   parseLength(document_[e].attribute("y"), place.lengths, Axis::Y).value_or(0));
+    place.toScene = Affine(outer * viewport->toOuter);
+    place.lengths.viewport = viewport->userSize;
+    const bool clips = !place.style.overflowVisible;
+    Frame* frame = open(e, std::move(place), name, e + 1, document_[e].next);
+    if (frame && clips) frame->clip = boundsOf(Box(corner, corner + viewport->size), outer);
+}
+
+Drawing::Frame* Drawing::open(ElementIndex e, Place place, std::string_view name, ElementIndex first, ElementIndex end)
+{
+    if (place.depth < kDeepest) {
+        const std::string_view type = isLayer(e, place) ? LayerItem::type : GroupItem::type;
+        const Item& group = request_.edit.add(type, *place.container);
+        if (!name.empty()) request_.edit.set(group, "name", name);
+        if (!place.shown) request_.edit.set(group, "visible", false);
+        place.container = &group;
+        place.shown = true;  // what is in it is hidden with it
+        ++place.depth;
+        ++containers_;
+    } else {
+        report_.count("groups are nested more than 200 deep; deeper ones are drawn into the one around them",
+                      document_.offsetOf(e));
+        if (!place.shown) return nullptr;
+    }
+    frames_.push_back({first, end, std::move(place), 0, {}, e});
+    return &frames_.back();
+}
+
+void Drawing::close()
+{
+    const Frame& frame = frames_.back();
+    if (frame.clip && frame.place.depth < kDeepest) {
+        const Box bounds = frame.place.container->bounds();
+        if (!bounds.isNull() && !frame.clip->inflated(1e-6 * frame.clip->size().norm()).contains(bounds)) {
+            report_.count("a nested drawing is larger than its frame; what sticks out is not cut off",
+                          document_.offsetOf(frame.element));
+        }
+    }
+    uses_.resize(uses_.size() - std::size_t(frame.usesEnded));
+    frames_.pop_back();
+}
+
+// What Inkscape calls a layer, and every group at the top of a drawing.
+bool Drawing::isLayer(ElementIndex e, const Place& place) const
+{
+    if (document_[e].tag != Tag::Group) return false;
+    return document_[e].attribute("inkscape:groupmode") == "layer" || (document_[e].parent == 0 && place.depth == 0);
+}
+
+void Drawing::noteUnsupported(ElementIndex e, const Style& style)
+{
+    const std::size_t offset = document_.offsetOf(e);
+    if (style.hasClipPath) report_.count("clip paths do not cut anything off", offset);
+    if (style.hasMask) report_.count("masks do not hide anything", offset);
+    if (style.hasFilter) report_.count("filters are not applied", offset);
+    const bool severalMembers = document_.firstChild(e) != kNoElement && document_[e + 1].next < document_[e].next;
+    if (style.opacity < 1 && severalMembers) {
+        report_.count("the opacity of a group is given to each of its members; where they overlap they show through",
+                      offset);
+    }
+}
+
+}  // namespace jet::svg
