@@ -1,0 +1,145 @@
+// In Path Rigid Body: makes a rigid body of a shape (thesis §3.5.2.2, SPEC EF2): the polygon through its segments and
+// intermediate points, or, where it has none, one that follows the curves closely.
+#include <jet/effect.hpp>
+#include <jet/items_center.hpp>
+#include <jet/plugin.hpp>
+
+namespace {
+
+using Ring = std::vector<jet::Vec2>;
+
+// A circle 100 units wide follows its curve within a quarter of a unit.
+constexpr double kTolerance = 0.0025;  // of the larger side of the bounds
+
+bool hasIntermediatePoints(const jet::Path& path)
+{
+    for (const jet::Contour& contour : path.contours())
+        for (std::size_t i = 0; i < contour.curveCount(); ++i)
+            if (contour.segments[i].intermediate > 0) return true;
+    return false;
+}
+
+/// All points on a line, give or take `tolerance`. (The signed area would not do: that of a figure eight is zero.)
+bool isFlat(const Ring& ring, double tolerance)
+{
+    jet::Vec2 longest = jet::Vec2::Zero();
+    for (const jet::Vec2& p : ring)
+        if ((p - ring[0]).norm() > longest.norm()) longest = p - ring[0];
+    return std::all_of(ring.begin(), ring.end(), [&](const jet::Vec2& p) {
+        return std::abs(jet::cross(longest, p - ring[0])) <= tolerance * longest.norm();
+    });
+}
+
+/// The rings of the body: open contours count as closed by a line, as a fill sees them; those without area are left
+/// out.
+std::vector<Ring> ringsOf(const jet::Path& path)
+{
+    const jet::Vec2 box = path.bounds().size();
+    const double size = std::max(box.x(), box.y());
+    if (!(size > 0)) return {};
+    const double tolerance = 1e-9 * size;
+    std::vector<Ring> rings;
+    for (const jet::Polyline& line :
+         hasIntermediatePoints(path) ? path.polygonized() : path.flatten(kTolerance * size)) {
+        Ring ring;
+        for (const jet::Vec2& p : line.points)
+            if (ring.empty() || (p - ring.back()).norm() > tolerance) ring.push_back(p);
+        while (ring.size() > 1 && (ring.back() - ring.front()).norm() <= tolerance) ring.pop_back();
+        if (!isFlat(ring, tolerance)) rings.push_back(std::move(ring));
+    }
+    return rings;
+}
+
+class Outline final : public jet::EffectState {
+public:
+    explicit Outline(const jet::Path& path) : rings(ringsOf(path))
+    {
+        for (const Ring& ring : rings) {
+            jet::Path polygon = jet::Path::polygon(ring);
+            edges.contours().push_back(std::move(polygon.contours().front()));
+            corners += ring.size();
+        }
+    }
+    std::vector<Ring> rings;
+    jet::Path edges;
+    std::size_t corners = 0;
+};
+
+constexpr jet::Color kEdge{40, 90, 220, 255}, kVertex{210, 30, 30, 255};
+
+void paintOutline(const Outline& outline, jet::Painter& painter)
+{
+    if (outline.corners == 0) return;
+    jet::Pen pen;
+    pen.color = kEdge;
+    pen.cosmetic = true;
+    painter.stroke(outline.edges, pen);
+
+    const double pixels = outline.edges.length() / static_cast<double>(outline.corners) * painter.pixelsPerUnit();
+    if (pixels < 24) return;  // indices would cover each other
+    std::size_t index = 0;    // counted through all rings, as contacts count walls and vertices
+    for (const Ring& ring : outline.rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i, ++index) {
+            const jet::Vec2 middle = 0.5 * (ring[i] + ring[(i + 1) % ring.size()]);
+            painter.text(middle, std::to_string(index), jet::TextStyle{kEdge, 10, true, true});
+            painter.text(ring[i], std::to_string(index), jet::TextStyle{kVertex, 10, true, true});
+        }
+    }
+}
+
+class InPathRigidBody final : public jet::Effect {
+public:
+    const jet::PropertyTable& properties() const override
+    {
+        static const jet::PropertyTable table{jet::real("mass", "Mass", 1).range(1e-6, 1e9)};
+        return table;
+    }
+
+    std::string rejects(const jet::Item& item) const override
+    {
+        const std::string name = "'" + item.name() + "' ";
+        if (!item.is<jet::ShapeItem>() && !item.is<jet::BodyItem>())
+            return name + "is not a shape; only shapes become rigid bodies";
+        for (const char* other : {"in-path-rigid-body", "in-path-body"})
+            if (item.effect(other)) return name + "already is a body; change or remove its effect " + other;
+        if (ringsOf(item.path()).empty()) return name + "encloses no area; a rigid body needs an outline that does";
+        return {};
+    }
+
+    void applied(jet::Transaction& edit, const jet::Item& item) const override
+    {
+        if (!item.is<jet::BodyItem>()) edit.setType(item, jet::BodyItem::type);
+    }
+
+    std::unique_ptr<jet::EffectState> update(const jet::EffectInput& in) const override
+    {
+        return std::make_unique<Outline>(in.path);
+    }
+
+    void paint(const jet::EffectInput& in, const jet::EffectState* state, jet::PaintPurpose purpose,
+               jet::Painter& painter) const override
+    {
+        if (purpose != jet::PaintPurpose::Edit) return;
+        if (state) {
+            paintOutline(static_cast<const Outline&>(*state), painter);
+        } else {
+            paintOutline(Outline(in.path), painter);
+        }
+    }
+
+    std::optional<jet::BodyDef> buildBody(const jet::EffectInput& in, const jet::BodyCommon& common) const override
+    {
+        jet::RigidBodyDef body;
+        body.common = common;
+        body.borders = ringsOf(in.path);
+        body.mass = in.get<double>("mass");
+        if (body.borders.empty())
+            throw jet::Failure(
+                jet::Error("'" + in.item.name() + "' encloses no area; a rigid body needs an outline that does"));
+        return body;
+    }
+};
+
+}  // namespace
+
+JET_PLUGIN(plugin) { plugin.effect<InPathRigidBody>("in-path-rigid-body"); }
