@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <ctime>
 #include <random>
 #include <string>
 #include <utility>
@@ -28,6 +29,9 @@ public:
 private:
     std::mt19937_64 engine_;
 };
+
+/// Processor time of this process, in seconds: what a test may limit on a busy machine.
+inline double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// (s², s³) for s in [-1, 1]: a cusp at t = 1/2. Its length is 2 (13^1.5 - 8) / 27.
 inline Cubic cuspCubic() { return {{Vec2(1, -1), Vec2(-1.0 / 3, 1), Vec2(-1.0 / 3, -1), Vec2(1, 1)}}; }
