@@ -63,10 +63,12 @@ std::optional<Argument> takeArgument(std::string_view& text)
 
 double alphaOf(const Argument& a) { return a.percent ? a.value / 100 : a.value; }
 
-Color fromRgb(const std::array<Argument, 4>& a)
+// Numbers or percentages, not both.
+std::optional<Color> fromRgb(const std::array<Argument, 4>& a)
 {
+    if (a[0].percent != a[1].percent || a[1].percent != a[2].percent) return {};
     const auto unit = [](const Argument& v) { return v.percent ? v.value / 100 : v.value / 255; };
-    return {channel(unit(a[0])), channel(unit(a[1])), channel(unit(a[2])), channel(alphaOf(a[3]))};
+    return Color{channel(unit(a[0])), channel(unit(a[1])), channel(unit(a[2])), channel(alphaOf(a[3]))};
 }
 
 // CSS Color 4, section 7.1.

@@ -9,9 +9,7 @@ namespace jet::svg {
 
 namespace {
 
-constexpr int kDeepest = 200;              // containers within one another; deeper ones are drawn into the last
-constexpr std::size_t kMostUses = 50'000;  // references followed in all ("use bomb")
-constexpr std::size_t kMostUsesNested = 32;
+constexpr int kDeepest = 200;  // containers within one another; deeper ones are drawn into the last
 constexpr std::size_t kMostItems = 1'000'000;
 constexpr std::size_t kProgressStep = 1024;  // elements
 
@@ -42,8 +40,6 @@ std::string_view unsupported(Tag tag)
     default: return {};
     }
 }
-
-Box boundsOf(const Box& box, const Affine& m) { return Path::rectangle(box).transformed(m).bounds(); }
 
 }  // namespace
 
@@ -96,7 +92,7 @@ bool Drawing::openOutermost()
     if (empty && viewport->sized) setPage(viewport->size);
     noteUnsupported(0, place.style);
     if (!place.style.display) return false;
-    frames_.push_back({1, root.next, std::move(place), 0, {}, 0});
+    frames_.push_back({1, root.next, std::move(place), 0, {}, 0, false});
     return true;
 }
 
@@ -138,7 +134,7 @@ void Drawing::visit(ElementIndex e, const Place& around, std::string_view name)
     case Tag::Switch: visitSwitch(e, place, name); break;
     case Tag::Svg: visitViewport(e, kNoElement, std::move(place), name); break;
     case Tag::Use: visitUse(e, std::move(place), name); break;
-    default: shapes_.add(e, name, place); break;
+    default: addShape(e, place, name); break;
     }
 }
 
@@ -150,74 +146,6 @@ void Drawing::visitSwitch(ElementIndex e, const Place& place, std::string_view n
         open(e, place, name, child, document_[child].next);
         return;
     }
-}
-
-void Drawing::visitUse(ElementIndex use, Place place, std::string_view name)
-{
-    const Element& element = document_[use];
-    const std::string_view href = element.href();
-    const ElementIndex target = document_.findReference(href);
-    if (target == kNoElement) {
-        const bool outside = !href.empty() && !href.starts_with('#');
-        report_.count(outside ? "a reference leads to another file, which is not read; it is left out"
-                              : "a reference leads to nothing in this drawing; it is left out",
-                      document_.offsetOf(use));
-        return;
-    }
-    if (isRecursive(use, target)) {
-        report_.count("a reference leads back to itself; it is left out", document_.offsetOf(use));
-        return;
-    }
-    if (++usesFollowed_ > kMostUses) {
-        report_.count("the drawing has more than 50000 references that lead to references; the rest is left out",
-                      document_.offsetOf(use));
-        return;
-    }
-    const auto offset = [&](const char* attribute, Axis axis) {
-        return parseLength(element.attribute(attribute), place.lengths, axis).value_or(0);
-    };
-    place.toScene = Affine(place.toScene * Affine::translation({offset("x", Axis::X), offset("y", Axis::Y)}));
-
-    const std::size_t framesBefore = frames_.size();
-    uses_.push_back(use);
-    const Tag tag = document_[target].tag;
-    if (tag == Tag::Symbol || tag == Tag::Svg) {
-        Place inner = place;
-        inner.style = styles_.compute(target, place.style, place.lengths);
-        inner.opacity *= inner.style.opacity;
-        inner.shown = place.shown && inner.style.display;
-        visitViewport(target, use, std::move(inner), name);
-    } else {
-        visit(target, place, name);
-    }
-    if (frames_.size() > framesBefore) {
-        ++frames_[framesBefore].usesEnded;
-    } else {
-        uses_.pop_back();
-    }
-}
-
-bool Drawing::isRecursive(ElementIndex use, ElementIndex target) const
-{
-    return document_.contains(target, use) || uses_.size() >= kMostUsesNested ||
-           std::find(uses_.begin(), uses_.end(), use) != uses_.end();
-}
-
-void Drawing::visitViewport(ElementIndex e, ElementIndex use, Place place, std::string_view name)
-{
-    const std::optional<Viewport> viewport =
-        innerViewport(document_[e], use == kNoElement ? nullptr : &document_[use], place.lengths);
-    if (!viewport) return;
-    const Affine outer = place.toScene;
-    const Vec2 corner = document_[e].tag == Tag::Symbol
-                            ? Vec2(0, 0)
-                            : Vec2(parseLength(document_[e].attribute("x"), place.lengths, Axis::X).value_or(0),
-                                   parseLength(document_[e].attribute("y"), place.lengths, Axis::Y).value_or(0));
-    place.toScene = Affine(outer * viewport->toOuter);
-    place.lengths.viewport = viewport->userSize;
-    const bool clips = !place.style.overflowVisible;
-    Frame* frame = open(e, std::move(place), name, e + 1, document_[e].next);
-    if (frame && clips) frame->clip = boundsOf(Box(corner, corner + viewport->size), outer);
 }
 
 Drawing::Frame* Drawing::open(ElementIndex e, Place place, std::string_view name, ElementIndex first, ElementIndex end)
@@ -236,7 +164,7 @@ Drawing::Frame* Drawing::open(ElementIndex e, Place place, std::string_view name
                       document_.offsetOf(e));
         if (!place.shown) return nullptr;
     }
-    frames_.push_back({first, end, std::move(place), 0, {}, e});
+    frames_.push_back({first, end, std::move(place), 0, {}, e, false});
     return &frames_.back();
 }
 
@@ -251,6 +179,7 @@ void Drawing::close()
         }
     }
     uses_.resize(uses_.size() - std::size_t(frame.usesEnded));
+    if (frame.isMarker) --openMarkers_;
     frames_.pop_back();
 }
 

@@ -12,6 +12,8 @@
 
 namespace jet::svg {
 
+struct MarkerVertex;
+
 class Drawing {
 public:
     Drawing(const Document& document, ImportRequest& request, Report& report);
@@ -25,6 +27,7 @@ private:
         int usesEnded = 0;        ///< references that end with this frame
         std::optional<Box> clip;  ///< scene units: what SVG shows of the content
         ElementIndex element = kNoElement;
+        bool isMarker = false;
     };
 
     bool openOutermost();
@@ -36,6 +39,9 @@ private:
     /// Opens a group or layer named so; its elements run from `first` to before `end`. Null: it stays closed.
     Frame* open(ElementIndex e, Place place, std::string_view name, ElementIndex first, ElementIndex end);
     void close();
+    void addShape(ElementIndex e, const Place& place, std::string_view name);
+    void addMarkers(ElementIndex e, const Place& place);
+    void addMarker(ElementIndex marker, const MarkerVertex& vertex, const Place& around);
     bool isLayer(ElementIndex e, const Place& place) const;
     bool isRecursive(ElementIndex use, ElementIndex target) const;
     void noteUnsupported(ElementIndex e, const Style& style);
@@ -48,6 +54,7 @@ private:
     std::deque<Frame> frames_;        // a deque: references stay valid while frames are opened
     std::vector<ElementIndex> uses_;  // the references being followed, outermost first
     std::size_t usesFollowed_ = 0;
+    int openMarkers_ = 0;
     std::size_t containers_ = 0;
     bool pageUnknown_ = false;
     bool full_ = false;

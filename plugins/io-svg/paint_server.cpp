@@ -53,7 +53,10 @@ std::optional<Color> PaintServers::colorOf(const Paint& paint, const Style& styl
     if (paint.kind != Paint::Kind::Server) return plain(paint.kind);
     const ElementIndex server = document_.find(paint.server);
     const Tag tag = server == kNoElement ? Tag::Unknown : document_[server].tag;
-    if (isGradient(tag)) return serverColor(server, user);
+    if (isGradient(tag)) {
+        const std::optional<Color> color = serverColor(server, user);
+        return color ? color : plain(paint.fallback);
+    }
     if (tag == Tag::Pattern) {
         report_.count("patterns are not drawn; the fallback colour is taken where there is one",
                       document_.offsetOf(user));

@@ -144,15 +144,30 @@ bool readPaintOrder(Style& style, Value value, Lengths)
         const Value word = value.substr(0, end);
         value = trimmed(value.substr(end));
         const bool known = word == "fill" || word == "stroke" || word == "markers" || word == "normal";
-        if (!known || std::find(words.begin(), words.end(), word) != words.end())
-            return style.strokeFirst = false, true;
+        if (!known || std::find(words.begin(), words.end(), word) != words.end()) return style.order = {}, true;
         words.push_back(word);
     }
     const auto place = [&](Value word) { return std::find(words.begin(), words.end(), word) - words.begin(); };
-    return style.strokeFirst = place("stroke") < place("fill"), true;
+    style.order.strokeFirst = place("stroke") < place("fill");
+    style.order.markersFirst = place("markers") == 0;
+    return true;
 }
 
-bool readMarker(Style& style, Value value, Lengths) { return style.hasMarker = value.starts_with("url("), true; }
+template <bool Start, bool Mid, bool End>
+bool readMarker(Style& style, Value value, Lengths)
+{
+    const Value id = takeUrl(value).value_or(Value());
+    if (Start) style.markers[0] = id;
+    if (Mid) style.markers[1] = id;
+    if (End) style.markers[2] = id;
+    return true;
+}
+
+template <std::size_t Which>
+void copyMarker(Style& style, const Style& from)
+{
+    style.markers[Which] = from.markers[Which];
+}
 
 template <bool Style::*Flag>
 bool readReference(Style& style, Value value, Lengths)
@@ -186,11 +201,11 @@ const PropertyRule kRules[] = {
      copy<&Style::dashOffset>},
     {"visibility", true, [](Style& s, Value v, Lengths) { return s.visible = v == "visible", true; },
      copy<&Style::visible>},
-    {"paint-order", true, readPaintOrder, copy<&Style::strokeFirst>},
-    {"marker", true, readMarker, copy<&Style::hasMarker>, false},
-    {"marker-start", true, readMarker, copy<&Style::hasMarker>},
-    {"marker-mid", true, readMarker, copy<&Style::hasMarker>},
-    {"marker-end", true, readMarker, copy<&Style::hasMarker>},
+    {"paint-order", true, readPaintOrder, copy<&Style::order>},
+    {"marker", true, readMarker<true, true, true>, copy<&Style::markers>, false},
+    {"marker-start", true, readMarker<true, false, false>, copyMarker<0>},
+    {"marker-mid", true, readMarker<false, true, false>, copyMarker<1>},
+    {"marker-end", true, readMarker<false, false, true>, copyMarker<2>},
     {"display", false, [](Style& s, Value v, Lengths) { return s.display = v != "none", true; }, copy<&Style::display>},
     {"opacity", false, [](Style& s, Value v, Lengths) { return readRatio(s.opacity, v); }, copy<&Style::opacity>},
     {"clip-path", false, readReference<&Style::hasClipPath>, copy<&Style::hasClipPath>},

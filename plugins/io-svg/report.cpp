@@ -23,12 +23,14 @@ Report::~Report()
 
 void Report::note(std::string message, std::size_t offset)
 {
+    if (silent_ > 0) return;
     if (++single_ > kMostSingleNotes) return count("more of the drawing is faulty", offset);
     notes_.push_back({std::move(message), source_.locate(offset)});
 }
 
 void Report::count(std::string_view message, std::size_t offset)
 {
+    if (silent_ > 0) return;
     const auto found = kinds_.find(message);
     Kind& kind =
         found != kinds_.end() ? found->second : kinds_.emplace(std::string(message), Kind{offset, 0}).first->second;

@@ -23,6 +23,17 @@ public:
     /// One more of a kind; `message` says what was done about it: "text is not drawn".
     void count(std::string_view message, std::size_t offset);
 
+    /// While one lives, nothing is taken down: for reading again what was read before.
+    class Silence {
+    public:
+        explicit Silence(Report& report) : report_(report) { ++report_.silent_; }
+        ~Silence() { --report_.silent_; }
+        Silence(const Silence&) = delete;
+
+    private:
+        Report& report_;
+    };
+
 private:
     struct Kind {
         std::size_t first = 0;
@@ -33,6 +44,7 @@ private:
     std::vector<FormatNote>& notes_;
     std::map<std::string, Kind, std::less<>> kinds_;
     int single_ = 0;
+    int silent_ = 0;
 };
 
 }  // namespace jet::svg

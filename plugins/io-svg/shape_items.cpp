@@ -63,10 +63,9 @@ void ShapeItems::add(ElementIndex e, std::string_view name, const Place& place)
     ++count_;
     if (!name.empty()) edit_.set(item, "name", name);
     if (!place.shown || !place.style.visible) edit_.set(item, "visible", false);
-    if (place.style.hasMarker) report_.count("markers are not drawn", document_.offsetOf(e));
-    if (place.style.strokeFirst) addStroke(item, e, place, dashScale(document_[e], path));
+    if (place.style.order.strokeFirst) addStroke(item, e, place, dashScale(document_[e], path));
     addFace(item, e, place);
-    if (!place.style.strokeFirst) addStroke(item, e, place, dashScale(document_[e], path));
+    if (!place.style.order.strokeFirst) addStroke(item, e, place, dashScale(document_[e], path));
 }
 
 void ShapeItems::addFace(const Item& item, ElementIndex e, const Place& place)

@@ -27,6 +27,11 @@ struct Paint {
     bool hasFallback = false;
 };
 
+/// paint-order, as far as it can be kept: markers between fill and stroke come last.
+struct PaintOrder {
+    bool strokeFirst = false, markersFirst = false;
+};
+
 struct Style {
     // inherited
     Color color{0, 0, 0, 255};
@@ -41,8 +46,8 @@ struct Style {
     std::shared_ptr<const std::vector<double>> dashes;  ///< null: solid
     double dashOffset = 0;
     bool visible = true;
-    bool strokeFirst = false;  ///< paint-order
-    bool hasMarker = false;
+    PaintOrder order;
+    std::array<std::string_view, 3> markers;  ///< ids of marker-start, -mid and -end; empty: none
     // not inherited
     bool display = true;
     double opacity = 1;

@@ -68,6 +68,9 @@ struct BrushMaker {
     }
 };
 
+// A dash without length still has its caps: the dots of a dotted line. Qt leaves it out; a very short one it draws.
+constexpr double kDot = 1e-3;  // pen widths
+
 // Qt counts dashes in pen widths and wants pairs.
 QList<qreal> dashPattern(const Pen& pen, double length)
 {
@@ -77,7 +80,10 @@ QList<qreal> dashPattern(const Pen& pen, double length)
     QList<qreal> pattern;
     const int rounds = pen.dashes.size() % 2 == 0 ? 1 : 2;
     for (int round = 0; round < rounds; ++round) {
-        for (double dash : pen.dashes) pattern.push_back(dash / pen.width);
+        for (const double dash : pen.dashes) {
+            const bool isGap = pattern.size() % 2 == 1;
+            pattern.push_back(isGap ? dash / pen.width : std::max(dash / pen.width, kDot));
+        }
     }
     return pattern;
 }

@@ -77,11 +77,11 @@ INSTANTIATE_TEST_SUITE_P(
     All, SvgColorTest,
     testing::Values(ColorCase{"#f80", "#ff8800"}, ColorCase{"#ff8000", "#ff8000"}, ColorCase{"#ff800080", "#ff800080"},
                     ColorCase{"rgb(255, 128,0)", "#ff8000"}, ColorCase{"rgb(100%, 50%, 0%)", "#ff8000"},
-                    ColorCase{"rgb(300, -5, 0)", "#ff0000"}, ColorCase{"rgba(255,128,0,0.5)", "#ff800080"},
-                    ColorCase{"rgb(255 128 0 / 50%)", "#ff800080"}, ColorCase{"hsl(120, 100%, 25%)", "#008000"},
-                    ColorCase{"hsl(-240, 100%, 25%)", "#008000"}, ColorCase{"LimeGreen", "#32cd32"},
-                    ColorCase{"currentColor", "#00ff7f"}, ColorCase{"none", "none"}, ColorCase{"inherit", "#123456"},
-                    ColorCase{"transparent", "#00000000"},
+                    ColorCase{"rgb(300, -5, 0)", "#ff0000"}, ColorCase{"rgb(50%, 128, 0)", "#123456"},
+                    ColorCase{"rgba(255,128,0,0.5)", "#ff800080"}, ColorCase{"rgb(255 128 0 / 50%)", "#ff800080"},
+                    ColorCase{"hsl(120, 100%, 25%)", "#008000"}, ColorCase{"hsl(-240, 100%, 25%)", "#008000"},
+                    ColorCase{"LimeGreen", "#32cd32"}, ColorCase{"currentColor", "#00ff7f"}, ColorCase{"none", "none"},
+                    ColorCase{"inherit", "#123456"}, ColorCase{"transparent", "#00000000"},
                     ColorCase{"#12345", "#123456"},  // what is no colour counts as not written
                     ColorCase{"url(#missing)", "none"}, ColorCase{"url(#missing) red", "#ff0000"}));
 
