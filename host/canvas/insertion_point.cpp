@@ -1,0 +1,38 @@
+#include "canvas/insertion_point.hpp"
+
+namespace jet::host {
+
+namespace {
+
+bool receives(const Item* item)
+{
+    return item && item->isContainer() && item->parent() && item->editable() && item->shown();
+}
+
+/// The selected container, or the container around the selected item.
+const Item* containerOf(const Item* item)
+{
+    while (item && !item->isContainer()) item = item->parent();
+    return item;
+}
+
+}  // namespace
+
+const Item& insertionPoint(Editor& editor, Scene& scene, Transaction& edit)
+{
+    const ItemsCenter& items = scene.items();
+    if (!items.selection().empty()) {
+        const Item* container = containerOf(items.find(items.selection().front()));
+        if (receives(container)) return *container;
+    }
+    const Item* active = items.find(editor.activeLayer());
+    if (receives(active)) return *active;
+    for (const auto& child : scene.root().children()) {
+        if (child->is<LayerItem>() && receives(child.get())) return *child;
+    }
+    const Item& layer = edit.add<LayerItem>(scene.root());
+    edit.set(layer, "name", "Layer");
+    return layer;
+}
+
+}  // namespace jet::host

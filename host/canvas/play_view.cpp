@@ -1,0 +1,161 @@
+#include "canvas/play_view.hpp"
+
+#include "canvas/backdrop.hpp"
+#include "canvas/qt_input.hpp"
+
+#include <jet/scene_painter.hpp>
+#include <jet/ui/qt_painter.hpp>
+
+#include <QMouseEvent>
+#include <QPainter>
+
+#include <algorithm>
+
+namespace jet::host {
+
+namespace {
+
+const QColor kPlaying(76, 175, 80), kPaused(242, 140, 30);
+constexpr int kFramePixels = 3;
+
+/// The poses of one frame.
+class FramePoses final : public PoseSource {
+public:
+    explicit FramePoses(const SimulationFrame& frame) : poses_(frame.poses) {}
+
+    const Path* pose(const Item& item) const override
+    {
+        const auto found = std::lower_bound(poses_.begin(), poses_.end(), item.id(),
+                                            [](const auto& pose, ItemId id) { return pose.first < id; });
+        return found != poses_.end() && found->first == item.id() ? &found->second : nullptr;
+    }
+
+private:
+    const std::vector<std::pair<ItemId, Path>>& poses_;
+};
+
+}  // namespace
+
+PlayView::PlayView(SimulationCenter& simulation, EventsCenter& events, const View& editView, QWidget* parent)
+    : QWidget(parent), simulation_(simulation), editView_(editView)
+{
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    setAttribute(Qt::WA_OpaquePaintEvent);
+    setCursor(Qt::ArrowCursor);
+    parent->installEventFilter(this);  // to stay as large as the view below
+    setGeometry(parent->rect());
+    frames_ = events.subscribe<SimulationFrameReady>(nullptr, [this](const SimulationFrameReady&) { update(); });
+    states_ = events.subscribe<SimulationStateChanged>(nullptr, [this](const SimulationStateChanged&) { update(); });
+}
+
+bool PlayView::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() == QEvent::Resize) setGeometry(parentWidget()->rect());
+    return QWidget::eventFilter(watched, event);
+}
+
+void PlayView::resizeEvent(QResizeEvent*)
+{
+    simulation_.setViewSize({static_cast<double>(width()), static_cast<double>(height())});
+}
+
+// --- painting
+
+View PlayView::shownView(const SimulationFrame& frame) const
+{
+    const View& game = frame.view.view;
+    const bool untouched = game.anchor == Vec2(0, 0) && game.scale == 1;
+    return untouched ? editView_ : game;
+}
+
+void PlayView::paintEvent(QPaintEvent*)
+{
+    QPainter painter(this);
+    const std::shared_ptr<const SimulationFrame> frame = simulation_.frame();
+    if (frame && simulation_.runningScene()) {
+        paintGame(painter, *frame);
+    } else {
+        painter.fillRect(rect(), palette().color(QPalette::Base));
+    }
+    paintFrame(painter);
+}
+
+void PlayView::paintGame(QPainter& painter, const SimulationFrame& frame)
+{
+    const Scene& scene = *simulation_.runningScene();
+    const Color ground = backgroundOf(scene);
+    painter.fillRect(rect(), QColor(ground.r, ground.g, ground.b));
+    const View view = shownView(frame);
+    const Vec2 size(width(), height());
+    const FramePoses poses(frame);
+    ui::QtPainter target(painter);
+    target.save();
+    target.transform(view.toPixels());
+    paintScene(scene, &poses, PaintPurpose::Play, Box(view.anchor, view.anchor + size / view.scale), target);
+    target.restore();
+}
+
+void PlayView::paintFrame(QPainter& painter)
+{
+    painter.setRenderHint(QPainter::Antialiasing, false);
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(simulation_.state() == SimulationCenter::State::Paused ? kPaused : kPlaying, kFramePixels));
+    const int inset = kFramePixels / 2;
+    painter.drawRect(rect().adjusted(inset, inset, -inset - 1, -inset - 1));
+}
+
+// --- input
+
+bool PlayView::event(QEvent* event)
+{
+    // Keys are the game's, but the function keys still pause and stop it, and Ctrl still saves.
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto* key = static_cast<QKeyEvent*>(event);
+        const bool function = key->key() >= Qt::Key_F1 && key->key() <= Qt::Key_F35;
+        if (!function && !(key->modifiers() & Qt::ControlModifier)) event->accept();
+    }
+    if (event->type() == QEvent::KeyPress) {  // QWidget would turn Tab into a change of focus
+        keyPressEvent(static_cast<QKeyEvent*>(event));
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+void PlayView::keyPressEvent(QKeyEvent* event)
+{
+    if (!event->isAutoRepeat()) held_.insert(event->key());
+    simulation_.key(keyEventOf(*event), true);
+}
+
+void PlayView::keyReleaseEvent(QKeyEvent* event)
+{
+    if (event->isAutoRepeat()) return;
+    held_.remove(event->key());
+    simulation_.key(keyEventOf(*event), false);
+}
+
+void PlayView::focusOutEvent(QFocusEvent* event)
+{
+    // The releases will go elsewhere: without this the hero keeps running.
+    for (const int key : std::as_const(held_)) {
+        simulation_.key(keyEventOf(QKeyEvent(QEvent::KeyRelease, key, Qt::NoModifier)), false);
+    }
+    held_.clear();
+    QWidget::focusOutEvent(event);
+}
+
+void PlayView::sendPointer(ScriptEventKind kind, const QMouseEvent& event)
+{
+    const std::shared_ptr<const SimulationFrame> frame = simulation_.frame();
+    const View view = frame ? shownView(*frame) : editView_;
+    const Vec2 pixels(event.position().x(), event.position().y());
+    simulation_.pointer(
+        kind, {view.anchor + pixels / view.scale, pixels, buttonOf(event.button()), modifiersOf(event.modifiers())});
+}
+
+void PlayView::mousePressEvent(QMouseEvent* event) { sendPointer(ScriptEventKind::PointerDown, *event); }
+void PlayView::mouseMoveEvent(QMouseEvent* event) { sendPointer(ScriptEventKind::PointerMove, *event); }
+void PlayView::mouseReleaseEvent(QMouseEvent* event) { sendPointer(ScriptEventKind::PointerUp, *event); }
+
+}  // namespace jet::host

@@ -1,0 +1,43 @@
+// PlayView: a running game, laid over the scene view it was started from. Keys and pointer go to the game; when it is
+// taken away, the edited scene is seen as it was left, at the same zoom.
+#pragma once
+
+#include <jet/simulation.hpp>
+
+#include <QSet>
+#include <QWidget>
+
+namespace jet::host {
+
+class PlayView final : public QWidget {
+    Q_OBJECT
+
+public:
+    /// Until a script moves the camera the game is seen at `editView`, in place.
+    PlayView(SimulationCenter& simulation, EventsCenter& events, const View& editView, QWidget* parent);
+
+protected:
+    bool event(QEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+
+private:
+    View shownView(const SimulationFrame& frame) const;
+    void sendPointer(ScriptEventKind kind, const QMouseEvent& event);
+    void paintGame(QPainter& painter, const SimulationFrame& frame);
+    void paintFrame(QPainter& painter);
+
+    SimulationCenter& simulation_;
+    View editView_;
+    QSet<int> held_;  // keys that are down, to be let go when the focus leaves
+    Subscription frames_, states_;
+};
+
+}  // namespace jet::host

@@ -1,0 +1,154 @@
+#include "window/dock_area.hpp"
+
+#include <jet/ui/panel.hpp>
+
+#include <QLabel>
+#include <QMainWindow>
+#include <QMenu>
+#include <QSettings>
+
+namespace jet::host {
+
+namespace {
+
+constexpr int kLayoutVersion = 1;  // a change of the default arrangement that old files must not hide
+constexpr int kTabGroup = 100;     // panels whose `order` has the same hundreds share a tab bar
+
+QString dockName(const Contribution& panel) { return QStringLiteral("panel:") + QString::fromStdString(panel.id); }
+
+Qt::DockWidgetArea areaOf(const Contribution& panel)
+{
+    if (panel.area == "left") return Qt::LeftDockWidgetArea;
+    if (panel.area == "bottom") return Qt::BottomDockWidgetArea;
+    return Qt::RightDockWidgetArea;
+}
+
+}  // namespace
+
+DockArea::DockArea(QMainWindow& window, Editor& editor) : QObject(&window), window_(window), editor_(editor) {}
+
+DockArea::~DockArea()
+{
+    for (const auto& dock : docks_) delete dock->widget;  // panels go after their widgets
+}
+
+void DockArea::createDocks()
+{
+    for (Contribution& panel : editor_.catalog().contributions(ContributionKind::Panel)) {
+        auto* widget = new QDockWidget(QString::fromStdString(panel.label), &window_);
+        widget->setObjectName(dockName(panel));
+        docks_.push_back(std::make_unique<Dock>(Dock{std::move(panel), widget, nullptr}));
+        connect(widget, &QDockWidget::visibilityChanged, this,
+                [this, dock = docks_.back().get()](bool visible) { fillWhenSeen(*dock, visible); });
+    }
+    placeDefault();
+}
+
+void DockArea::fillWhenSeen(Dock& dock, bool visible)
+{
+    if (!visible || dock.content || dock.failed) return;
+    dock.content = editor_.catalog().createPanel(dock.panel.id, editor_);
+    QWidget* widget = dock.content ? dock.content->createWidget() : nullptr;
+    if (!widget) {
+        dock.failed = true;
+        const std::string why = editor_.catalog().explain(ContributionKind::Panel, dock.panel.id);
+        auto* label = new QLabel(QString::fromStdString(why));
+        label->setWordWrap(true);
+        label->setMargin(10);
+        widget = label;
+    }
+    dock.widget->setWidget(widget);
+}
+
+void DockArea::placeDefault()
+{
+    // In each area: panels of one hundred of `order` are tabs, the next hundred lies below (beside, at the bottom).
+    QMap<Qt::DockWidgetArea, std::pair<int, QDockWidget*>> last;
+    QList<QDockWidget*> fronts;
+    for (const auto& dock : docks_) {
+        const Qt::DockWidgetArea area = areaOf(dock->panel);
+        const int group = dock->panel.order / kTabGroup;
+        const auto before = last.constFind(area);
+        window_.addDockWidget(area, dock->widget);
+        if (before != last.constEnd() && before->first == group) {
+            window_.tabifyDockWidget(before->second, dock->widget);
+        } else {
+            fronts << dock->widget;
+        }
+        last.insert(area, {group, dock->widget});
+        dock->widget->show();
+    }
+    for (QDockWidget* front : fronts) front->raise();
+}
+
+// --- the layout between runs
+
+void DockArea::createStandIns(const QStringList& names)
+{
+    for (const QString& name : names) {
+        if (window_.findChild<QDockWidget*>(name)) continue;
+        auto* standIn = new QDockWidget(&window_);
+        standIn->setObjectName(name);
+        standIns_.insert(name, standIn);
+        window_.addDockWidget(Qt::RightDockWidgetArea, standIn);
+    }
+}
+
+void DockArea::restoreLayout(QSettings& settings)
+{
+    window_.restoreGeometry(settings.value("layout/geometry").toByteArray());
+    createStandIns(settings.value("layout/docks").toStringList());
+    window_.restoreState(settings.value("layout/state").toByteArray(), kLayoutVersion);
+    for (const auto& standIn : std::as_const(standIns_)) {
+        if (!standIn->isHidden()) shownStandIns_ << standIn->objectName();
+        standIn->hide();
+    }
+    // Restoring a hidden layout leaves docks unseen that the user never closed by hand; first seen is when they are
+    // filled.
+    for (const auto& dock : docks_) fillWhenSeen(*dock, dock->widget->isVisible());
+}
+
+void DockArea::saveLayout(QSettings& settings)
+{
+    setMaximized(false);
+    for (const QString& name : std::as_const(shownStandIns_)) standIns_[name]->show();
+    QStringList names = standIns_.keys();
+    for (const auto& dock : docks_) names << dock->widget->objectName();
+    settings.setValue("layout/docks", names);
+    settings.setValue("layout/state", window_.saveState(kLayoutVersion));
+    settings.setValue("layout/geometry", window_.saveGeometry());
+    for (const QString& name : std::as_const(shownStandIns_)) standIns_[name]->hide();
+}
+
+void DockArea::resetLayout()
+{
+    setMaximized(false);
+    for (const auto& dock : docks_) {
+        dock->widget->setFloating(false);
+        window_.removeDockWidget(dock->widget);
+    }
+    placeDefault();
+}
+
+void DockArea::fillMenu(QMenu& menu) const
+{
+    for (const auto& dock : docks_) menu.addAction(dock->widget->toggleViewAction());
+}
+
+void DockArea::setMaximized(bool on)
+{
+    if (on == maximized_) return;
+    maximized_ = on;
+    if (!on) {
+        for (QDockWidget* dock : std::as_const(hiddenByMaximize_)) dock->show();
+        hiddenByMaximize_.clear();
+        return;
+    }
+    for (const auto& dock : docks_) {
+        if (dock->widget->isHidden() || dock->widget->isFloating()) continue;
+        hiddenByMaximize_ << dock->widget;
+        dock->widget->hide();
+    }
+}
+
+}  // namespace jet::host

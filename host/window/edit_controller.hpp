@@ -1,0 +1,45 @@
+// EditController: undo, the clipboard, grouping and the other commands of the Edit and Effects menus.
+#pragma once
+
+#include "window/actions.hpp"
+#include "window/documents.hpp"
+
+namespace jet::host {
+
+class EditController final : public QObject {
+    Q_OBJECT
+
+public:
+    EditController(Editor& editor, Documents& documents, QObject* parent);
+
+    std::vector<ActionSpec> actions();
+    /// "Apply effect": the declared effects; choosing one applies it to the selection.
+    void fillEffectsMenu(QMenu& menu);
+    /// Arrow keys move the selection by 1, with Shift by 10 scene units.
+    bool nudge(int key, bool far);
+
+    void applyEffect(const std::string& effect);
+
+private:
+    /// The front scene, if it may be edited now.
+    Scene* scene() const;
+    bool hasSelection() const;
+    /// The front scene with gestures ended and typing committed, ready for a transaction.
+    Scene& readyScene() const;
+
+    void undo();
+    void redo();
+    void copy();
+    void cut();
+    void paste();
+    void remove();
+    void duplicate();
+    void selectAll();
+    void group();
+    void ungroup();
+
+    Editor& editor_;
+    Documents& documents_;
+};
+
+}  // namespace jet::host

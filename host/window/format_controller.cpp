@@ -1,0 +1,151 @@
+#include "window/format_controller.hpp"
+
+#include "canvas/insertion_point.hpp"
+
+#include <jet/format.hpp>
+
+#include <QCoreApplication>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QRegularExpression>
+
+namespace jet::host {
+
+namespace {
+
+std::span<const std::byte> bytesOf(const std::string& content) { return std::as_bytes(std::span(content)); }
+
+QString patternOf(const Contribution& format)
+{
+    QStringList patterns;
+    for (const std::string& extension : format.extensions)
+        patterns << QStringLiteral("*.") + QString::fromStdString(extension);
+    return patterns.join(QLatin1Char(' '));
+}
+
+}  // namespace
+
+FormatController::FormatController(Editor& editor, Documents& documents, QWidget* window)
+    : QObject(window), editor_(editor), documents_(documents), window_(window)
+{
+}
+
+std::vector<ActionSpec> FormatController::actions()
+{
+    const auto open = [this] { return documents_.currentScene() != nullptr; };
+    return {
+        {"file.import", QT_TRANSLATE_NOOP("Actions", "&Import…"), "import", "Ctrl+I", [this] { askAndImport(); }, open},
+        {"file.export", QT_TRANSLATE_NOOP("Actions", "&Export…"), "export", "Ctrl+E", [this] { askAndExport(); }, open},
+    };
+}
+
+bool FormatController::importFile(const std::filesystem::path& file)
+{
+    Scene* scene = documents_.currentScene();
+    if (!scene) return false;
+    if (SceneView* view = documents_.currentView()) view->endGesture();
+    Importer* importer = editor_.catalog().importer(extensionOf(file));
+    if (!importer) {
+        editor_.showMessage(editor_.catalog().explain(ContributionKind::Importer, extensionOf(file)));
+        return false;
+    }
+    const Result<std::string> content = readFile(file);
+    if (!content) {
+        editor_.showMessage(content.error().text());
+        return false;
+    }
+    const bool wasEmpty = scene->root().bounds().isNull();
+    std::vector<FormatNote> notes;
+    auto edit = scene->items().begin("Import " + file.filename().string());
+    ImportRequest request{file, bytesOf(*content), edit, insertionPoint(editor_, *scene, edit), notes, {}};
+    const Result<void> read = importer->read(request);
+    report(notes);
+    if (!read) {
+        edit.rollback();
+        editor_.showMessage(read.error().text());
+        return false;
+    }
+    edit.commit();
+    SceneView* view = documents_.viewOf(*scene);
+    if (view && wasEmpty) view->frame(scene->root().bounds());
+    return true;
+}
+
+bool FormatController::exportFile(const std::filesystem::path& file)
+{
+    Scene* scene = documents_.currentScene();
+    if (!scene) return false;
+    Exporter* exporter = editor_.catalog().exporter(extensionOf(file));
+    if (!exporter) {
+        editor_.showMessage(editor_.catalog().explain(ContributionKind::Exporter, extensionOf(file)));
+        return false;
+    }
+    documents_.commitScripts();
+    std::vector<FormatNote> notes;
+    const ExportRequest request{*scene, nullptr, std::nullopt, 0, 0, std::nullopt, file, notes, {}};
+    const Result<std::vector<std::byte>> content = exporter->write(request);
+    report(notes);
+    const Result<void> written = content ? writeFileAtomically(file, *content) : Result<void>(content.error());
+    if (!written) {
+        editor_.showMessage(written.error().text());
+        return false;
+    }
+    editor_.showStatus(tr("Exported %1").arg(QString::fromStdString(file.string())).toStdString());
+    return true;
+}
+
+void FormatController::importFiles(const QStringList& files)
+{
+    for (const QString& file : files) importFile(file.toStdString());
+}
+
+void FormatController::report(const std::vector<FormatNote>& notes)
+{
+    for (const FormatNote& note : notes) {
+        editor_.print({OutputLine::Kind::Warning, Error(note.message, note.where).text(), {}, 0});
+    }
+    if (!notes.empty())
+        editor_.showStatus(
+            tr("%n remark(s) in the Output panel", nullptr, static_cast<int>(notes.size())).toStdString());
+}
+
+// --- dialogs
+
+QString FormatController::filters(ContributionKind kind, const QString& all) const
+{
+    QStringList lines, patterns;
+    for (const Contribution& format : editor_.catalog().contributions(kind)) {
+        patterns << patternOf(format);
+        lines << QStringLiteral("%1 (%2)").arg(QString::fromStdString(format.label), patterns.back());
+    }
+    if (lines.size() > 1 && !all.isEmpty())
+        lines.prepend(QStringLiteral("%1 (%2)").arg(all, patterns.join(QLatin1Char(' '))));
+    return lines.join(QStringLiteral(";;"));
+}
+
+void FormatController::askAndImport()
+{
+    const QString file = QFileDialog::getOpenFileName(window_, tr("Import into the scene"), lastFolder_,
+                                                      filters(ContributionKind::Importer, tr("All formats")), nullptr,
+                                                      QFileDialog::DontUseNativeDialog);
+    if (file.isEmpty()) return;
+    lastFolder_ = QFileInfo(file).path();
+    importFile(file.toStdString());
+}
+
+void FormatController::askAndExport()
+{
+    const QString offered = filters(ContributionKind::Exporter, {});
+    if (offered.isEmpty()) return editor_.showMessage(tr("No export formats are installed.").toStdString());
+    QString chosen;
+    QString file = QFileDialog::getSaveFileName(window_, tr("Export the scene"), lastFolder_, offered, &chosen,
+                                                QFileDialog::DontUseNativeDialog);
+    if (file.isEmpty()) return;
+    lastFolder_ = QFileInfo(file).path();
+    if (QFileInfo(file).suffix().isEmpty()) {  // the chosen filter's first pattern: "PNG (*.png)"
+        file += chosen.section(QStringLiteral("(*"), 1).section(QRegularExpression(QStringLiteral("[ )]")), 0, 0);
+    }
+    exportFile(file.toStdString());
+}
+
+}  // namespace jet::host

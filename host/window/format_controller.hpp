@@ -1,0 +1,36 @@
+// FormatController: import and export of scenes through the format plugins.
+#pragma once
+
+#include "window/actions.hpp"
+#include "window/documents.hpp"
+
+#include <filesystem>
+
+namespace jet::host {
+
+class FormatController final : public QObject {
+    Q_OBJECT
+
+public:
+    FormatController(Editor& editor, Documents& documents, QWidget* window);
+
+    std::vector<ActionSpec> actions();
+    /// Into the front scene, as one undo step. False, and the scene unchanged, when the file cannot be read.
+    bool importFile(const std::filesystem::path& file);
+    bool exportFile(const std::filesystem::path& file);
+    /// Files dropped on a view: a project is none of this one's business and left out.
+    void importFiles(const QStringList& files);
+
+private:
+    void askAndImport();
+    void askAndExport();
+    QString filters(ContributionKind kind, const QString& all) const;
+    void report(const std::vector<FormatNote>& notes);
+
+    Editor& editor_;
+    Documents& documents_;
+    QWidget* window_;
+    QString lastFolder_;
+};
+
+}  // namespace jet::host

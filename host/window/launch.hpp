@@ -1,0 +1,31 @@
+// The one door into libjet-window.so: bin/jet loads it with dlopen when the editor is wanted, so that `jet --version`
+// and the headless commands never load Qt.
+#pragma once
+
+#include <jet/catalog.hpp>
+#include <jet/events.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace jet::host {
+
+/// What the editor is started with. Everything referred to outlives the call.
+struct WindowLaunch {
+    jet::Catalog& catalog;
+    jet::EventsCenter& events;      ///< owned by the calling thread, which becomes the GUI thread
+    std::filesystem::path project;  ///< empty: a new, untitled project
+    bool safeMode = false;          ///< started with the shipped plugins only: said in the title
+    /// Sentences about plugins that are faulted or were refused; may be empty.
+    std::function<std::vector<std::string>()> pluginProblems;
+};
+
+}  // namespace jet::host
+
+/// Shows the editor and runs it until its window closes; returns the exit code. [main thread]
+extern "C" JET_API int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& launch);
+/// Its type and its name, for dlsym.
+using JetRunWindow = int (*)(int argc, char** argv, const jet::host::WindowLaunch& launch);
+inline constexpr const char* kJetRunWindowSymbol = "jet_run_window";

@@ -1,0 +1,310 @@
+#include "window/main_window.hpp"
+
+#include <jet/ui/icons.hpp>
+
+#include <QCloseEvent>
+#include <QCoreApplication>
+#include <QLabel>
+#include <QMenuBar>
+#include <QSettings>
+#include <QStatusBar>
+#include <QTimer>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+namespace jet::host {
+
+namespace {
+
+constexpr MenuSpec kMenus[] = {
+    {QT_TRANSLATE_NOOP("Actions", "&File"),
+     "file.new file.open @recent | file.save file.save-as | file.import file.export | view.close file.quit"},
+    {QT_TRANSLATE_NOOP("Actions", "&Edit"), "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.duplicate "
+                                            "edit.delete | edit.select-all edit.group edit.ungroup"},
+    {QT_TRANSLATE_NOOP("Actions", "&Scene"), "scene.new @scenes | @effects"},
+    {QT_TRANSLATE_NOOP("Actions", "&View"),
+     "view.zoom-in view.zoom-out view.zoom-reset view.frame | view.grid | @panels view.maximize view.reset-layout"},
+    {QT_TRANSLATE_NOOP("Actions", "&Play"), "play.play play.pause play.step play.stop"},
+};
+constexpr const char* kMainBar = "file.new file.open file.save | edit.undo edit.redo | play.play play.pause play.step "
+                                 "play.stop | view.frame view.grid";
+constexpr const char* kContextMenu = "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.duplicate edit.delete | "
+                                     "edit.group edit.ungroup | @effects | view.frame";
+
+constexpr int kProblemsMs = 1000;
+
+QSettings settings() { return QSettings(QSettings::IniFormat, QSettings::UserScope, "jet", "window"); }
+
+QString number(double value, int decimals) { return QString::number(value, 'f', decimals); }
+
+}  // namespace
+
+MainWindow::MainWindow(const WindowLaunch& launch)
+    : catalog_(launch.catalog), events_(launch.events), safeMode_(launch.safeMode),
+      pluginProblems_(launch.pluginProblems), pump_(launch.events), simulation_(launch.events),
+      messages_(new MessageBar(nullptr)), documents_(new Documents(*this, toolOptions_, nullptr)),
+      actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
+      projects_(*this, *documents_, this), formats_(*this, *documents_, this), edits_(*this, *documents_, this),
+      player_(*this, *documents_, this), tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this),
+      views_(*documents_, docks_, this)
+{
+    setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
+    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    setCentralWidget(createCentral());
+    resize(1360, 860);
+    createActions();
+    createMenus();
+    createToolBars();
+    createStatusBar();
+    connectDocuments();
+    followEvents();
+}
+
+MainWindow::~MainWindow()
+{
+    simulation_.stop();
+    subscriptions_.clear();
+    projects_.close();  // views and script tabs refer to scenes
+}
+
+QWidget* MainWindow::createCentral()
+{
+    auto* central = new QWidget(this);
+    auto* layout = new QVBoxLayout(central);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(messages_);
+    layout->addWidget(documents_, 1);
+    return central;
+}
+
+// --- menus and bars
+
+void MainWindow::createActions()
+{
+    const auto newScene = [this] {
+        Scene& scene = project().addScene(project().freeSceneName());
+        events_.post(static_cast<Editor*>(this), ProjectChanged{});
+        openScene(scene);
+    };
+    actions_.add(projects_.actions());
+    actions_.add(formats_.actions());
+    actions_.add(edits_.actions());
+    actions_.add(player_.actions());
+    actions_.add(views_.actions());
+    actions_.add({
+        {"scene.new", QT_TRANSLATE_NOOP("Actions", "&New scene"), "plus", "", newScene},
+        {"file.quit", QT_TRANSLATE_NOOP("Actions", "&Quit"), "", "Ctrl+Q", [this] { close(); }},
+    });
+    actions_.addSubmenu("recent", {QT_TRANSLATE_NOOP("Actions", "&Recent projects"), "",
+                                   [this](QMenu& menu) { projects_.fillRecentMenu(menu); }});
+    actions_.addSubmenu("effects", {QT_TRANSLATE_NOOP("Actions", "&Apply effect"), "effect",
+                                    [this](QMenu& menu) { edits_.fillEffectsMenu(menu); }});
+    actions_.addSubmenu("panels",
+                        {QT_TRANSLATE_NOOP("Actions", "&Panels"), "", [this](QMenu& menu) { docks_.fillMenu(menu); }});
+    actions_.addSubmenu("scenes", {QT_TRANSLATE_NOOP("Actions", "&Open scene"), "scene", [this](QMenu& menu) {
+                                       for (Scene* scene : project().scenes()) {
+                                           menu.addAction(ui::icon("scene"), QString::fromStdString(scene->name()),
+                                                          this, [this, scene] { openScene(*scene); });
+                                       }
+                                   }});
+}
+
+void MainWindow::createMenus()
+{
+    actions_.buildMenuBar(*menuBar(), kMenus);
+    createCommandMenus();
+}
+
+void MainWindow::createCommandMenus()
+{
+    for (const Contribution& command : catalog_.contributions(ContributionKind::Command)) {
+        const QString path = command.menu.empty() ? tr("Tools") : QString::fromStdString(command.menu);
+        QAction* action = Actions::menuAt(*menuBar(), path)->addAction(QString::fromStdString(command.label));
+        action->setShortcut(QKeySequence(QString::fromStdString(command.shortcut)));
+        connect(action, &QAction::triggered, this, [this, id = command.id] {
+            if (Command* wanted = catalog_.command(id)) {
+                wanted->run(*this);
+            } else {
+                showMessage(catalog_.explain(ContributionKind::Command, id));
+            }
+        });
+    }
+}
+
+void MainWindow::createToolBars()
+{
+    const auto bar = [this](const QString& title, const char* name, Qt::ToolBarArea area) {
+        auto* made = new QToolBar(title, this);
+        made->setObjectName(QLatin1String(name));
+        made->setIconSize(QSize(20, 20));
+        addToolBar(area, made);
+        return made;
+    };
+    actions_.buildToolBar(*bar(tr("Main"), "mainBar", Qt::TopToolBarArea), kMainBar);
+    QToolBar* options = bar(tr("Tool options"), "toolOptionsBar", Qt::TopToolBarArea);
+    tools_.setOptionsBar(*options);
+    tools_.buildToolBar(*bar(tr("Tools"), "toolsBar", Qt::LeftToolBarArea));
+}
+
+void MainWindow::createStatusBar()
+{
+    status_ = new QLabel(this);
+    pointer_ = new QLabel(this);
+    zoom_ = new QLabel(this);
+    pointer_->setMinimumWidth(150);
+    zoom_->setMinimumWidth(64);
+    statusBar()->addWidget(status_, 1);
+    statusBar()->addPermanentWidget(pointer_);
+    statusBar()->addPermanentWidget(zoom_);
+}
+
+// --- keeping up
+
+void MainWindow::connectDocuments()
+{
+    connect(documents_, &Documents::frontChanged, this, &MainWindow::frontChanged);
+    connect(documents_, &Documents::viewOpened, this, [this](SceneView* view) { prepareView(*view); });
+    connect(&projects_, &ProjectController::saved, this, &MainWindow::updateTitle);
+}
+
+void MainWindow::prepareView(SceneView& view)
+{
+    views_.prepare(view);
+    connect(&view, &SceneView::pointerMoved, this, &MainWindow::showPointer);
+    connect(&view, &SceneView::pointerLeft, pointer_, &QLabel::clear);
+    connect(&view, &SceneView::viewChanged, this, &MainWindow::updateZoom);
+    connect(&view, &SceneView::keyUnused, this, [this](QKeyEvent* event) { useKey(*event); });
+    connect(&view, &SceneView::filesDropped, &formats_, &FormatController::importFiles);
+    connect(&view, &SceneView::contextMenuRequested, this, [this](const QPoint& at) {
+        QMenu menu(this);
+        actions_.refresh();
+        actions_.fillMenu(menu, kContextMenu);
+        menu.exec(at);
+    });
+}
+
+void MainWindow::followEvents()
+{
+    const auto refresh = [this](const auto&) { actions_.refreshSoon(); };
+    const auto changed = [this](const ItemsChanged&) {
+        actions_.refreshSoon();
+        updateTitle();
+    };
+    const auto projectChanged = [this](const ProjectChanged&) {
+        activeLayers_.clear();
+        actions_.refreshSoon();
+        updateTitle();
+    };
+    subscriptions_.push_back(events_.subscribe<ItemsChanged>(nullptr, changed));
+    subscriptions_.push_back(events_.subscribe<ProjectChanged>(nullptr, projectChanged));
+    subscriptions_.push_back(events_.subscribe<SelectionChanged>(nullptr, refresh));
+    subscriptions_.push_back(events_.subscribe<SimulationStateChanged>(nullptr, refresh));
+    // A plugin may fail at any time, on any thread: asking now and then costs less than another way in.
+    auto* problems = new QTimer(this);
+    connect(problems, &QTimer::timeout, this, &MainWindow::showPluginProblems);
+    problems->start(kProblemsMs);
+    showPluginProblems();
+}
+
+void MainWindow::showPluginProblems()
+{
+    if (!pluginProblems_) return;
+    for (std::string& problem : pluginProblems_()) {
+        if (shownProblems_.insert(problem).second) showMessage(std::move(problem));
+    }
+}
+
+void MainWindow::frontChanged()
+{
+    tools_.applyToFront();
+    updateZoom();
+    actions_.refreshSoon();
+    Scene* front = documents_->currentScene();
+    if (front == frontScene_) return;
+    frontScene_ = front;
+    events_.post(static_cast<Editor*>(this), ActiveSceneChanged{front});
+}
+
+void MainWindow::useKey(QKeyEvent& event)
+{
+    if (event.key() == Qt::Key_Escape) return tools_.escape();
+    if (edits_.nudge(event.key(), event.modifiers().testFlag(Qt::ShiftModifier))) return;
+    const QKeySequence keys(event.keyCombination());
+    if (!tools_.trigger(keys) && !actions_.trigger(keys)) event.ignore();
+}
+
+void MainWindow::updateTitle()
+{
+    documents_->updateTitles();
+    const QString mode = safeMode_ ? tr(" (safe mode)") : QString();
+    setWindowTitle(QStringLiteral("%1[*] — JET%2").arg(QString::fromStdString(project().name()), mode));
+    setWindowModified(projects_.isModified());
+}
+
+void MainWindow::updateZoom()
+{
+    const SceneView* view = documents_->currentView();
+    zoom_->setText(view ? number(100 * view->camera().view().scale, 0) + QLatin1Char('%') : QString());
+}
+
+void MainWindow::showPointer(const QPointF& scene)
+{
+    pointer_->setText(QStringLiteral("x %1   y %2").arg(number(scene.x(), 1), number(scene.y(), 1)));
+}
+
+// --- Editor
+
+void MainWindow::openScene(Scene& scene) { documents_->openScene(scene); }
+
+void MainWindow::openScript(Scene& scene, ItemId script, int line)
+{
+    if (scene.items().find(script)) documents_->openScript(scene, script, line);
+}
+
+void MainWindow::print(OutputLine line) { events_.post(static_cast<Editor*>(this), OutputPrinted{std::move(line)}); }
+void MainWindow::showMessage(std::string text) { messages_->add(QString::fromStdString(text)); }
+void MainWindow::showStatus(std::string text) { status_->setText(QString::fromStdString(text)); }
+
+ItemId MainWindow::activeLayer() const
+{
+    const auto found = activeLayers_.find(documents_->currentScene());
+    return found != activeLayers_.end() ? found->second : ItemId{};
+}
+
+void MainWindow::setActiveLayer(ItemId layer)
+{
+    if (const Scene* scene = documents_->currentScene()) activeLayers_[scene] = layer;
+}
+
+// --- start and end
+
+void MainWindow::restoreSettings()
+{
+    QSettings stored = settings();
+    tools_.restoreOptions(stored);
+    projects_.restoreRecent(stored);
+    views_.restore(stored);
+    docks_.createDocks();
+    docks_.restoreLayout(stored);
+}
+
+void MainWindow::saveSettings()
+{
+    QSettings stored = settings();
+    tools_.saveOptions(stored);
+    projects_.saveRecent(stored);
+    views_.save(stored);
+    docks_.saveLayout(stored);
+}
+
+void MainWindow::closeEvent(QCloseEvent* event)
+{
+    if (!projects_.mayClose()) return event->ignore();
+    player_.stop();
+    saveSettings();
+    event->accept();
+}
+
+}  // namespace jet::host

@@ -1,0 +1,31 @@
+// ViewController: zoom, grid and panels: the View menu.
+#pragma once
+
+#include "window/actions.hpp"
+#include "window/dock_area.hpp"
+#include "window/documents.hpp"
+
+namespace jet::host {
+
+class ViewController final : public QObject {
+    Q_OBJECT
+
+public:
+    ViewController(Documents& documents, DockArea& docks, QObject* parent);
+
+    std::vector<ActionSpec> actions();
+    /// Gives a new view the present settings.
+    void prepare(SceneView& view) const { view.setGridVisible(grid_); }
+    void restore(QSettings& settings);
+    void save(QSettings& settings) const;
+
+private:
+    void frameSelection();
+    void setGrid(bool on);
+
+    Documents& documents_;
+    DockArea& docks_;
+    bool grid_ = true;
+};
+
+}  // namespace jet::host

@@ -1,0 +1,91 @@
+#include "subject.hpp"
+
+#include <algorithm>
+
+namespace jet::inspector {
+
+namespace {
+
+std::vector<SharedEffect> effectsOf(const Item& item)
+{
+    std::vector<SharedEffect> effects;
+    for (const EffectInstance& effect : item.effects()) {
+        const auto same = [&](const SharedEffect& e) { return e.type == effect.type; };
+        effects.push_back({effect.type, static_cast<int>(std::count_if(effects.begin(), effects.end(), same))});
+    }
+    return effects;
+}
+
+/// The value `of` gives for all items; none as soon as two differ.
+template <class Of>
+std::optional<Value> commonValue(const std::vector<const Item*>& items, Of of)
+{
+    std::optional<Value> common;
+    for (const Item* item : items) {
+        Value value = of(*item);
+        if (common && !(*common == value)) return std::nullopt;
+        common = std::move(value);
+    }
+    return common;
+}
+
+}  // namespace
+
+std::optional<std::size_t> indexOf(const Item& item, const SharedEffect& effect)
+{
+    int occurrence = 0;
+    for (std::size_t i = 0; i < item.effects().size(); ++i) {
+        if (item.effects()[i].type == effect.type && occurrence++ == effect.occurrence) return i;
+    }
+    return std::nullopt;
+}
+
+const ItemType* typeOf(Catalog& catalog, const std::string& type)
+{
+    const ItemType* builtIn = builtInItemType(type);
+    return builtIn ? builtIn : catalog.itemType(type);
+}
+
+Subject::Subject(const Scene& scene)
+{
+    for (const ItemId id : scene.items().selection()) {
+        if (const Item* item = scene.items().find(id)) items_.push_back(item);
+    }
+    if (items_.empty()) return;
+    type_ = items_.front()->type();
+    effects_ = effectsOf(*items_.front());
+    for (const Item* item : items_) {
+        if (item->type() != type_) type_.clear();
+        std::erase_if(effects_, [&](const SharedEffect& effect) { return !indexOf(*item, effect); });
+    }
+}
+
+bool Subject::sameOutline(const Subject& other) const
+{
+    return isEmpty() == other.isEmpty() && (items_.size() > 1) == (other.items_.size() > 1) && type_ == other.type_ &&
+           effects_ == other.effects_;
+}
+
+Box Subject::bounds() const
+{
+    Box box;
+    for (const Item* item : items_) box.extend(item->bounds());
+    return box;
+}
+
+std::optional<Value> Subject::common(std::string_view property, const Value& fallback) const
+{
+    return commonValue(items_, [&](const Item& item) { return item.property(property).value_or(fallback); });
+}
+
+std::optional<Value> Subject::common(const SharedEffect& effect, std::string_view property, const Value& fallback) const
+{
+    return commonValue(items_, [&](const Item& item) -> Value {
+        const EffectInstance& instance = item.effects()[*indexOf(item, effect)];
+        if (property == "visible") return instance.visible;
+        const Value* stored = instance.properties.find(property);
+        return stored ? *stored : fallback;
+    });
+}
+
+}  // namespace jet::inspector

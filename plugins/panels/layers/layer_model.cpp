@@ -1,0 +1,376 @@
+#include "layer_model.hpp"
+
+#include <jet/ui/icons.hpp>
+
+#include <QApplication>
+#include <QMimeData>
+#include <QPalette>
+
+#include <unordered_set>
+
+namespace jet::layers {
+
+namespace {
+
+const QString kMimeType = QStringLiteral("application/x-jet-items");
+
+/// Front-most first, as in every drawing program: the last child is painted on top.
+std::vector<ItemId> childIds(const Item& item)
+{
+    std::vector<ItemId> ids;
+    ids.reserve(item.children().size());
+    for (auto child = item.children().rbegin(); child != item.children().rend(); ++child) ids.push_back((*child)->id());
+    return ids;
+}
+
+QIcon iconOf(const Item& item)
+{
+    static std::unordered_map<std::string, QIcon> icons;
+    const auto found = icons.find(item.type());
+    if (found != icons.end()) return found->second;
+    QIcon icon = ui::icon(item.type());
+    return icons.emplace(item.type(), icon.isNull() ? ui::icon("unknown") : icon).first->second;
+}
+
+const QIcon& toggleIcon(int column, bool on)
+{
+    static const QIcon icons[] = {ui::icon("eye"), ui::icon("eye-off"), ui::icon("lock"), QIcon()};
+    return icons[column == Visible ? (on ? 0 : 1) : (on ? 2 : 3)];
+}
+
+QString toolTipOf(int column)
+{
+    if (column == Visible) return LayerModel::tr("Shown or hidden");
+    return column == Locked ? LayerModel::tr("Locked: cannot be picked in the scene") : QString();
+}
+
+}  // namespace
+
+struct LayerModel::Node {
+    ItemId id;
+    Node* parent = nullptr;
+    std::size_t row = 0;
+    bool populated = false;
+    std::vector<std::unique_ptr<Node>> children = {};
+};
+
+LayerModel::LayerModel(Editor& editor, QObject* parent) : QAbstractItemModel(parent), editor_(editor) {}
+LayerModel::~LayerModel() = default;
+
+void LayerModel::setScene(Scene* scene)
+{
+    beginResetModel();
+    scene_ = scene;
+    nodes_.clear();
+    root_.reset();
+    changed_.reset();
+    if (scene) {
+        root_ = std::make_unique<Node>(Node{scene->root().id()});
+        nodes_.emplace(root_->id.value, root_.get());
+        changed_ =
+            editor_.events().subscribe<ItemsChanged>(scene, [this](const ItemsChanged& event) { follow(event); });
+        populate(*root_);
+    }
+    endResetModel();
+}
+
+// --- nodes and indexes
+
+LayerModel::Node* LayerModel::nodeOf(const QModelIndex& index) const
+{
+    return index.isValid() ? static_cast<Node*>(index.internalPointer()) : root_.get();
+}
+
+QModelIndex LayerModel::indexOf(const Node& node, int column) const
+{
+    return &node == root_.get() ? QModelIndex() : createIndex(static_cast<int>(node.row), column, &node);
+}
+
+ItemId LayerModel::idOf(const QModelIndex& index) const
+{
+    return index.isValid() ? static_cast<Node*>(index.internalPointer())->id : ItemId{};
+}
+
+const Item* LayerModel::itemOf(const QModelIndex& index) const
+{
+    return scene_ && index.isValid() ? scene_->items().find(idOf(index)) : nullptr;
+}
+
+QModelIndex LayerModel::indexOf(ItemId id)
+{
+    const Item* item = scene_ ? scene_->items().find(id) : nullptr;
+    std::vector<const Item*> chain;
+    for (; item && item->parent(); item = item->parent()) chain.push_back(item);
+    for (auto ancestor = chain.rbegin(); ancestor != chain.rend(); ++ancestor) {
+        const auto parent = nodes_.find((*ancestor)->parent()->id().value);
+        if (parent == nodes_.end()) return {};
+        if (!parent->second->populated) fetchMore(indexOf(*parent->second));
+    }
+    const auto found = nodes_.find(id.value);
+    return found != nodes_.end() ? indexOf(*found->second) : QModelIndex();
+}
+
+QModelIndex LayerModel::index(int row, int column, const QModelIndex& parent) const
+{
+    const Node* node = nodeOf(parent);
+    if (!node || row < 0 || column < 0 || column >= ColumnCount ||
+        static_cast<std::size_t>(row) >= node->children.size())
+        return {};
+    return createIndex(row, column, node->children[static_cast<std::size_t>(row)].get());
+}
+
+QModelIndex LayerModel::parent(const QModelIndex& index) const
+{
+    const Node* node = nodeOf(index);
+    return node && node->parent ? indexOf(*node->parent) : QModelIndex();
+}
+
+int LayerModel::rowCount(const QModelIndex& parent) const
+{
+    const Node* node = parent.column() > 0 ? nullptr : nodeOf(parent);
+    return node ? static_cast<int>(node->children.size()) : 0;
+}
+
+bool LayerModel::hasChildren(const QModelIndex& parent) const
+{
+    const Node* node = nodeOf(parent);
+    if (!node || parent.column() > 0) return false;
+    if (node->populated) return !node->children.empty();
+    const Item* item = itemOf(parent);
+    return item && !item->children().empty();
+}
+
+bool LayerModel::canFetchMore(const QModelIndex& parent) const
+{
+    const Node* node = nodeOf(parent);
+    return node && !node->populated && hasChildren(parent);
+}
+
+void LayerModel::fetchMore(const QModelIndex& parent)
+{
+    Node* node = nodeOf(parent);
+    if (!node || node->populated) return;
+    node->populated = true;
+    sync(*node);
+}
+
+// --- the mirror
+
+void LayerModel::populate(Node& node)
+{
+    const Item* item = scene_->items().find(node.id);
+    if (!item) item = &scene_->root();
+    for (const ItemId id : childIds(*item)) {
+        node.children.push_back(std::make_unique<Node>(Node{id, &node, node.children.size()}));
+        nodes_.emplace(id.value, node.children.back().get());
+    }
+    node.populated = true;
+}
+
+void LayerModel::forget(const Node& node)
+{
+    // An item that moved may already stand elsewhere, under a node of its own.
+    if (const auto known = nodes_.find(node.id.value); known != nodes_.end() && known->second == &node)
+        nodes_.erase(known);
+    for (const auto& child : node.children) forget(*child);
+}
+
+void LayerModel::removeRows(Node& node, std::size_t first, std::size_t count)
+{
+    if (count == 0) return;
+    beginRemoveRows(indexOf(node), static_cast<int>(first), static_cast<int>(first + count - 1));
+    const auto begin = node.children.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = begin + static_cast<std::ptrdiff_t>(count);
+    for (auto child = begin; child != end; ++child) forget(**child);
+    node.children.erase(begin, end);
+    for (std::size_t row = first; row < node.children.size(); ++row) node.children[row]->row = row;
+    endRemoveRows();
+}
+
+void LayerModel::insertRows(Node& node, std::size_t first, std::span<const ItemId> ids)
+{
+    if (ids.empty()) return;
+    beginInsertRows(indexOf(node), static_cast<int>(first), static_cast<int>(first + ids.size() - 1));
+    std::vector<std::unique_ptr<Node>> made;
+    made.reserve(ids.size());
+    for (const ItemId id : ids) {
+        made.push_back(std::make_unique<Node>(Node{id, &node}));
+        nodes_[id.value] = made.back().get();
+    }
+    node.children.insert(node.children.begin() + static_cast<std::ptrdiff_t>(first),
+                         std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
+    for (std::size_t row = first; row < node.children.size(); ++row) node.children[row]->row = row;
+    endInsertRows();
+}
+
+void LayerModel::sync(Node& node)
+{
+    // What differs lies between the longest equal start and the longest equal end.
+    const Item* item = &node == root_.get() ? &scene_->root() : scene_->items().find(node.id);
+    const std::vector<ItemId> now = item ? childIds(*item) : std::vector<ItemId>();
+    const auto& old = node.children;
+    std::size_t head = 0, tail = 0;
+    while (head < old.size() && head < now.size() && old[head]->id == now[head]) ++head;
+    while (tail < old.size() - head && tail < now.size() - head &&
+           old[old.size() - 1 - tail]->id == now[now.size() - 1 - tail]) {
+        ++tail;
+    }
+    removeRows(node, head, old.size() - head - tail);
+    insertRows(node, head, std::span(now).subspan(head, now.size() - head - tail));
+}
+
+void LayerModel::follow(const ItemsChanged& event)
+{
+    std::unordered_set<std::uint64_t> parents, rows;
+    const auto note = [&](const auto& change) {
+        using T = std::decay_t<decltype(change)>;
+        if constexpr (std::is_same_v<T, ItemAdded> || std::is_same_v<T, ItemRemoved>) {
+            parents.insert(change.parent.value);
+        } else if constexpr (std::is_same_v<T, ItemMoved>) {
+            parents.insert({change.oldParent.value, change.newParent.value});
+        } else if constexpr (std::is_same_v<T, PropertyChanged> || std::is_same_v<T, TypeChanged>) {
+            rows.insert(change.item.value);
+        }
+    };
+    for (const Change& change : event.changes) std::visit(note, change);
+    for (const std::uint64_t parent : parents) {
+        const auto found = nodes_.find(parent);
+        if (found == nodes_.end()) continue;
+        if (found->second->populated) sync(*found->second);
+        rowChanged(ItemId{parent});  // it may have got its first child, or lost its last
+    }
+    for (const std::uint64_t row : rows) rowChanged(ItemId{row});
+    if (!parents.empty()) emit structureChanged();
+}
+
+void LayerModel::rowChanged(ItemId item)
+{
+    const auto found = nodes_.find(item.value);
+    if (found == nodes_.end() || found->second == root_.get()) return;
+    emit dataChanged(indexOf(*found->second, Name), indexOf(*found->second, ColumnCount - 1));
+}
+
+// --- what is shown
+
+QVariant LayerModel::data(const QModelIndex& index, int role) const
+{
+    const Item* item = itemOf(index);
+    if (!item) return {};
+    const int column = index.column();
+    switch (role) {
+    case Qt::DisplayRole: return column == Name ? QString::fromStdString(item->name()) : QVariant();
+    case Qt::EditRole: return QString::fromStdString(item->name());
+    case Qt::DecorationRole:
+        if (column == Name) return iconOf(*item);
+        return toggleIcon(column, column == Visible ? item->visible() : item->locked());
+    case Qt::ToolTipRole: return column == Name ? QString::fromStdString(item->type()) : toolTipOf(column);
+    case Qt::ForegroundRole:
+        return item->shown() && item->editable() ? QVariant()
+                                                 : QApplication::palette().brush(QPalette::Disabled, QPalette::Text);
+    default: return {};
+    }
+}
+
+Qt::ItemFlags LayerModel::flags(const QModelIndex& index) const
+{
+    const Item* item = itemOf(index);
+    if (!item) return index.isValid() ? Qt::NoItemFlags : Qt::ItemIsDropEnabled;
+    Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
+    if (index.column() == Name) flags |= Qt::ItemIsEditable | Qt::ItemIsDragEnabled;
+    if (item->isContainer()) {
+        flags |= Qt::ItemIsDropEnabled;
+    } else {
+        flags |= Qt::ItemNeverHasChildren;
+    }
+    return flags;
+}
+
+bool LayerModel::setData(const QModelIndex& index, const QVariant& value, int role)
+{
+    const Item* item = itemOf(index);
+    if (!item || role != Qt::EditRole) return false;
+    switch (index.column()) {
+    case Name:
+        if (value.toString().trimmed().isEmpty()) return false;
+        edit(*item, "Rename", "name", value.toString().trimmed().toStdString());
+        return true;
+    case Visible: edit(*item, value.toBool() ? "Show" : "Hide", "visible", value.toBool()); return true;
+    case Locked: edit(*item, value.toBool() ? "Lock" : "Unlock", "locked", value.toBool()); return true;
+    default: return false;
+    }
+}
+
+void LayerModel::edit(const Item& item, std::string_view label, std::string_view property, Value value)
+{
+    if (scene_->items().inTransaction()) return;
+    auto change = scene_->items().begin(label);
+    change.set(item, property, std::move(value));
+    change.commit();
+}
+
+// --- drag and drop
+
+QStringList LayerModel::mimeTypes() const { return {kMimeType}; }
+
+QMimeData* LayerModel::mimeData(const QModelIndexList& indexes) const
+{
+    QByteArray ids;
+    for (const QModelIndex& index : indexes) {
+        if (index.column() == Name) ids += QByteArray::number(static_cast<qulonglong>(idOf(index).value)) + ' ';
+    }
+    auto* data = new QMimeData;
+    data->setData(kMimeType, ids);
+    return data;
+}
+
+std::vector<const Item*> LayerModel::draggedItems(const QMimeData& data) const
+{
+    std::unordered_set<std::uint64_t> dragged;
+    for (const QByteArray& id : data.data(kMimeType).split(' ')) dragged.insert(id.toULongLong());
+    std::vector<const Item*> items;  // in tree order, without what lies in a dragged group
+    scene_->root().walk([&](const Item& item) {
+        if (!dragged.contains(item.id().value)) return true;
+        items.push_back(&item);
+        return false;
+    });
+    return items;
+}
+
+bool LayerModel::canDropMimeData(const QMimeData* data, Qt::DropAction action, int, int,
+                                 const QModelIndex& parent) const
+{
+    if (!scene_ || action != Qt::MoveAction || !data->hasFormat(kMimeType)) return false;
+    const Item* target = parent.isValid() ? itemOf(parent) : &scene_->root();
+    if (!target || !(target->isContainer() || target == &scene_->root())) return false;
+    for (const Item* item : draggedItems(*data)) {
+        if (item == target || item->isAncestorOf(*target)) return false;
+    }
+    return true;
+}
+
+bool LayerModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int row, int column,
+                              const QModelIndex& parent)
+{
+    if (!canDropMimeData(data, action, row, column, parent) || scene_->items().inTransaction()) return false;
+    const Item& target = parent.isValid() ? *itemOf(parent) : scene_->root();
+    const std::vector<const Item*> items = draggedItems(*data);
+    // Dropped between rows: it goes in front of the row below, which is the child the dragged ones are put after.
+    const std::size_t count = target.children().size();
+    const Item* below = row >= 0 && static_cast<std::size_t>(row) < count
+                            ? target.children()[count - 1 - static_cast<std::size_t>(row)].get()
+                            : nullptr;
+    const auto isDragged = [&](const Item* item) { return std::find(items.begin(), items.end(), item) != items.end(); };
+    while (below && isDragged(below)) below = below->priorSibling();
+    auto change = scene_->items().begin("Reorder");
+    for (const Item* item : items) {
+        // Counted without the item itself: it leaves a gap when it comes from before.
+        std::size_t index = row < 0 ? target.children().size() : below ? below->index() + 1 : 0;
+        if (item->parent() == &target && item->index() < index) --index;
+        change.move(*item, target, index);
+        below = row < 0 ? nullptr : item;
+    }
+    change.commit();
+    return true;
+}
+
+}  // namespace jet::layers
