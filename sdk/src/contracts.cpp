@@ -43,6 +43,7 @@ void ItemType::paint(const Item&, const Path&, PaintPurpose, Painter&) const {}
 void ItemType::build(const Item&, WorldBuilder&) const {}
 
 ToolHost::~ToolHost() = default;
+void ToolHost::switchTool(std::string_view) {}
 Tool::~Tool() = default;
 void Tool::activate() {}
 void Tool::deactivate() { cancel(); }

@@ -48,10 +48,11 @@ public:
     void showStatus(std::string text) override { status = std::move(text); }
     void setCursor(std::string_view name) override { cursor = name; }
     const Properties& options() const override { return values; }
+    void switchTool(std::string_view id) override { wantedTool = id; }
 
     double scale = 1;
     int repaints = 0;
-    std::string status, cursor;
+    std::string status, cursor, wantedTool;
     Properties values;  ///< of the tool's options
 
 private:

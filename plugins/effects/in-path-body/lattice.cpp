@@ -19,6 +19,12 @@ constexpr double kFewestCells = 12, kMostCells = 300;
 constexpr int kFarthestCells = 32;
 constexpr int kMostTries = 256;
 
+// Outlines beyond these sizes have areas a double cannot hold.
+constexpr double kSmallest = 1e-100, kLargest = 1e100;
+
+const char* const kNoArea =
+    "the outline encloses no area; draw a closed shape, or give its segments intermediate points";
+
 [[noreturn]] void fail(std::string message) { throw Failure(Error(std::move(message))); }
 
 std::string most(std::size_t count) { return "more than " + std::to_string(count); }
@@ -244,10 +250,11 @@ public:
     {
         const Vec2 size = path.bounds().size();
         const double extent = std::max(size.x(), size.y());
+        if (!(extent > kSmallest)) fail(kNoArea);
+        if (!(extent < kLargest)) fail("the outline is too large to be measured");
         std::vector<Ring> rings =
             options.borderOnSegments ? segmentRings(path, extent) : evenRings(path, options.borderCount, extent);
-        if (rings.empty())
-            fail("the outline encloses no area; draw a closed shape, or give its segments intermediate points");
+        if (rings.empty()) fail(kNoArea);
         region_ = Region(rings);
         for (const Ring& ring : rings) addRing(ring);
         lattice_.borderCount = lattice_.particles.size();

@@ -10,6 +10,8 @@ using Ring = std::vector<jet::Vec2>;
 
 // A circle 100 units wide follows its curve within a quarter of a unit.
 constexpr double kTolerance = 0.0025;  // of the larger side of the bounds
+// Outlines beyond these sizes have areas a double cannot hold.
+constexpr double kSmallest = 1e-100, kLargest = 1e100;
 
 bool hasIntermediatePoints(const jet::Path& path)
 {
@@ -36,7 +38,7 @@ std::vector<Ring> ringsOf(const jet::Path& path)
 {
     const jet::Vec2 box = path.bounds().size();
     const double size = std::max(box.x(), box.y());
-    if (!(size > 0)) return {};
+    if (!(size > kSmallest && size < kLargest)) return {};
     const double tolerance = 1e-9 * size;
     std::vector<Ring> rings;
     for (const jet::Polyline& line :
@@ -134,8 +136,7 @@ public:
         body.borders = ringsOf(in.path);
         body.mass = in.get<double>("mass");
         if (body.borders.empty())
-            throw jet::Failure(
-                jet::Error("'" + in.item.name() + "' encloses no area; a rigid body needs an outline that does"));
+            throw jet::Failure(jet::Error("its outline encloses no area; a rigid body needs one that does"));
         return body;
     }
 };

@@ -241,13 +241,13 @@ void SelectionTool::move(const jet::PointerEvent& e)
     }
 }
 
-/// Enters the group under the pointer and selects the member there.
+/// Enters the group under the pointer and selects the member there; of a single item, goes on to edit its nodes.
 void SelectionTool::doubleClick(const jet::PointerEvent& e)
 {
     const Item* leaf = itemAt(e);
     if (!leaf) return;
     const Item& target = targetOf(*leaf);
-    if (!target.is<jet::GroupItem>()) return;
+    if (!target.is<jet::GroupItem>()) return host().switchTool("direct-selection");
     entered_ = target.id();
     items().setSelection({targetOf(*leaf).id()});
     host().showStatus("In group " + target.name() + ". Esc leaves it.");
@@ -364,9 +364,10 @@ bool SelectionTool::holdModifier(const std::string& key, bool down)
 
 bool SelectionTool::keyPress(const jet::KeyEvent& e)
 {
-    if (mode_ != Mode::None) {
+    if (mode_ != Mode::None) {  // only what concerns the gesture may happen now
+        if (e.key == "Escape") return cancel();
         holdModifier(e.key, true);
-        return true;  // nothing else may happen during a gesture
+        return true;
     }
     const double step = e.modifiers.shift ? kLongNudge : kNudge;
     if (e.modifiers.control) return e.key == "D" && duplicateChosen();

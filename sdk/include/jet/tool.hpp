@@ -10,6 +10,7 @@
 #include <jet/scene.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace jet {
 
@@ -32,6 +33,9 @@ public:
     virtual void setCursor(std::string_view name) = 0;
     /// The tool's own options (see Tool::options), kept between runs.
     virtual const Properties& options() const = 0;
+    /// Makes another tool the active one, e.g. to edit the nodes of what was double-clicked. The asking tool is deactivated,
+    /// perhaps before this returns. A host with one tool, and one without that tool, ignores it.
+    virtual void switchTool(std::string_view id);
 };
 
 class JET_API Tool {

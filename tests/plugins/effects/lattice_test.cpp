@@ -444,6 +444,19 @@ TEST(Lattice, AnOutlineWithoutAreaIsRefusedInWords)
     EXPECT_EQ(failureOf(circle(50, 0), {}), "") << "a square in a circle has area";
 }
 
+TEST(Lattice, OutlinesOfNoSizeAndOfAnySizeAreAnswered)
+{
+    for (const bool onSegments : {true, false}) {
+        Options options;
+        options.borderOnSegments = onSegments;
+        EXPECT_NE(failureOf(Path::rectangle(Box({5, 5}, {5, 5})), options).find("area"), std::string::npos);
+        EXPECT_NE(failureOf(circle(1e-200, 4), options).find("area"), std::string::npos);
+        EXPECT_NE(failureOf(circle(1e200, 4), options).find("too large"), std::string::npos);
+        for (const double radius : {1e-90, 1e-9, 1e9, 1e90})
+            EXPECT_EQ(failureOf(circle(radius, 4), options), "") << radius;
+    }
+}
+
 TEST(Lattice, ALatticeNearTheLimitIsBuiltInMoments)
 {
     Options options;

@@ -143,6 +143,13 @@ TEST_F(SelectionToolTest, ADoubleClickEntersAGroupAndEscLeavesIt)
     EXPECT_EQ(selected(), Items{&group}) << "outside again";
 }
 
+TEST_F(SelectionToolTest, ADoubleClickOnASingleItemEditsItsNodes)
+{
+    select().doubleClick({220, 20});
+    EXPECT_EQ(selected(), Items{&right});
+    EXPECT_EQ(host().wantedTool, "direct-selection");
+}
+
 TEST_F(SelectionToolTest, AClickElsewhereLeavesTheGroup)
 {
     const Item& group = groupOf(items(), {&left, &over});
@@ -264,6 +271,15 @@ TEST_F(SelectionToolTest, EscGivesAMoveUp)
     EXPECT_EQ(undoSteps(), 3u);
     EXPECT_FALSE(items().inTransaction());
     EXPECT_TRUE(selected().empty()) << "as before the press";
+}
+
+TEST_F(SelectionToolTest, EscGivesAMoveUpAlsoWhenItArrivesAsAKey)  // a view may offer keys to the tool first
+{
+    const auto before = scene().hash();
+    select().press({220, 20}).move({260, 60});
+    EXPECT_TRUE(select()->keyPress({"Escape", "", {}, false}));
+    select().release();
+    EXPECT_EQ(scene().hash(), before);
 }
 
 TEST_F(SelectionToolTest, LeavingTheToolGivesTheGestureUp)
