@@ -1,5 +1,5 @@
 #include "hasher.hpp"
-#include "item_mutator.hpp"
+#include "scene_state.hpp"
 #include "world_builder.hpp"
 
 #include <jet/catalog.hpp>
@@ -36,6 +36,8 @@ struct Simulation::Private {
     std::function<void(ItemId, std::string_view, const Value&)> onProperty;
     std::optional<std::string> requestedScene;
     std::uint64_t random = 1;
+    // Of the item types in the scene: asked once, on the thread that owns the catalog.
+    std::map<std::string, const PropertyTable*, std::less<>> tables;
 
     mutable std::vector<Path> poses;  // by body handle; valid where posedAt equals steps + 1
     mutable std::vector<std::uint64_t> posedAt;
@@ -80,6 +82,19 @@ Simulation::~Simulation() { d_->scripts.reset(); }
 
 Result<std::unique_ptr<Simulation>> Simulation::start(const Scene& scene, SimulationOptions options)
 {
+    try {
+        return prepare(scene, std::move(options));
+    } catch (const Failure& failure) {
+        return failure.error();
+    } catch (const std::exception& e) {
+        return Error(std::string("the scene cannot be played: starting it failed: ") + e.what());
+    } catch (...) {
+        return Error("the scene cannot be played: starting it failed with an unknown exception");
+    }
+}
+
+Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, SimulationOptions options)
+{
     Catalog& catalog = scene.catalog();
     std::string engineId = options.physics;
     if (engineId.empty()) engineId = scene.setting("physics").as<std::string>();
@@ -90,30 +105,29 @@ Result<std::unique_ptr<Simulation>> Simulation::start(const Scene& scene, Simula
     auto& d = *simulation->d_;
     d.options = std::move(options);
     d.timeStep = d.options.timeStep.value_or(scene.setting("time-step").as<double>());
-    if (!(d.timeStep > 0)) return Error("the time step must be above 0 seconds");
+    if (const auto fits = Scene::settingsTable().find("time-step")->check(d.timeStep); !fits) return fits.error();
     d.random = d.options.seed;
     d.view.size = d.options.viewSize;
     // Until a script moves the camera, it stands as if the page's (or world's) origin were in the corner.
     d.view.view = View{};
     d.scene = scene.clone(d.events);
     std::vector<OutputLine> messages;
-    try {
-        d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
-        if (!d.world) return Error("the physics engine could not make a world for this scene");
-        SceneWorldBuilder builder(*d.scene, *d.world, messages);
-        builder.build();
-        d.bodies = std::move(builder.bodies);
-        d.actuators = std::move(builder.actuators);
-    } catch (const Failure& failure) {
-        return failure.error();
-    }
+    d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+    if (!d.world) return Error("the physics engine could not make a world for this scene");
+    SceneWorldBuilder builder(*d.scene, *d.world, messages);
+    builder.build();
+    d.bodies = std::move(builder.bodies);
+    d.actuators = std::move(builder.actuators);
     for (std::size_t i = 0; i < d.bodies.size(); ++i) d.bodyByItem[d.bodies[i].item.value] = i;
     d.poses.resize(d.bodies.size());
     d.posedAt.resize(d.bodies.size());
     for (OutputLine& message : messages) simulation->print(std::move(message));
 
     bool hasScripts = false;
-    d.scene->root().walk([&](const Item& item) { hasScripts = hasScripts || item.is<ScriptItem>(); });
+    d.scene->root().walk([&](const Item& item) {
+        hasScripts = hasScripts || item.is<ScriptItem>();
+        if (!d.tables.contains(item.type())) d.tables.emplace(item.type(), itemTable(catalog, item.type()));
+    });
     if (!hasScripts) return simulation;
     ScriptEngine* scripts = catalog.scriptEngine("");
     if (!scripts) {
@@ -256,9 +270,8 @@ void Simulation::setItemProperty(ItemId id, std::string_view property, Value val
     } else if (property == "name") {
         value = value.as<std::string>();
     } else {
-        const ItemType* type = builtInItemType(item->type());
-        if (!type) type = d_->scene->catalog().itemType(item->type());
-        const PropertySpec* spec = type ? type->properties().find(property) : nullptr;
+        const auto table = d_->tables.find(item->type());
+        const PropertySpec* spec = table != d_->tables.end() && table->second ? table->second->find(property) : nullptr;
         if (!spec) throw Failure(Error("'" + item->name() + "' has no property '" + std::string(property) + "'"));
         if (spec->kind == ValueKind::Real && value.get<std::int64_t>()) value = value.as<double>();
         spec->check(value).orThrow();
@@ -296,7 +309,7 @@ std::string Simulation::stateJson() const
     d_->scene->root().walk([&](const Item& item) {
         const BodyHandle body = bodyOf(item.id());
         const Box box = body != kNoHandle ? bodies.bounds[body] : item.bounds();
-        if (box.isNull()) return;
+        if (box.isNull() || item.isContainer()) return;
         const bool moves = body != kNoHandle;
         state["items"].push_back(Json{{"id", item.id().value},
                                       {"name", item.name()},
