@@ -43,11 +43,11 @@ std::int8_t outerSide(const State& state, const BodyRecord& body, Index wall)
     return plus ? -1 : 1;
 }
 
+/// Every particle collides, those inside its body too: hardly ever does one meet anything, but when a body is squashed
+/// flat they keep it from being pressed through a wall. Vertices of rigid borders collide where they end a wall.
 void markCollidable(State& state, const BodyRecord& body)
 {
-    const auto& at = state.gridFrame(body);
-    // A point in no wall collides when it is loose: outside the region, or of a body that has none.
-    for (Index p = body.points.first; p < body.points.end(); ++p) state.points.collidable[p] = !body.grid.inside(at[p]);
+    for (Index p = body.points.first; p < body.points.end(); ++p) state.points.collidable[p] = !body.rigid;
     for (Index w = body.walls.first; w < body.walls.end(); ++w) {
         state.points.collidable[state.walls.first[w]] = 1;
         state.points.collidable[state.walls.second[w]] = 1;

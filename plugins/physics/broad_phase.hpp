@@ -15,8 +15,9 @@ struct Motion {
     Vec2 velocity;  // of its centre
     double omega = 0;
     Vec2 centre;
-    double range = 0;  // units any of its points may move
-    double stray = 0;  // units its points may leave the predicted rigid motion before contacts are sought again
+    double surprise = 0;  // units a hit by a faster body may carry it, beyond the prediction
+    double range = 0;     // units any of its points may move
+    double stray = 0;     // units its points may leave the predicted rigid motion before contacts are sought again
 };
 
 /// Pairs whose reaches meet, by a sweep over boxes sorted along x; in ascending order. Pairs of fixed bodies are left

@@ -11,6 +11,9 @@ namespace {
 // What a body may stray from its predicted motion before contacts are sought again: larger finds more useless contacts,
 // smaller seeks more often.
 constexpr double kStrayLengths = 0.04, kStrayOfMotion = 0.1;
+// Hits faster than this many lengths of the smaller body a step are looked ahead for, through chains of so many bodies.
+constexpr double kHitLengths = 0.25;
+constexpr int kHitRounds = 3;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -39,6 +42,7 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     updatePoints(state);
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
+    for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);
     stats.broadPhaseMs += millisecondsSince(start);
 
     const auto narrow = std::chrono::steady_clock::now();
@@ -52,6 +56,29 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     collidePairs(state, settings, dt, previous_, contacts);
     carryOver(state, previous_, contacts);
     stats.narrowPhaseMs += millisecondsSince(narrow);
+}
+
+/// A body that a much faster one may hit gets the faster one's reach: within this very step it may have to be stopped
+/// by a wall that it would not have come near. Says whether any reach grew.
+bool ContactFinder::expectHits(const State& state, double dt)
+{
+    bool grew = false;
+    for (const BodyPair& pair : pairs_) {
+        const BodyRecord &a = state.bodies[pair.a], &b = state.bodies[pair.b];
+        if (a.fixed || b.fixed) continue;
+        const double closing = (motions_[pair.a].velocity - motions_[pair.b].velocity).norm() * dt;
+        const double reach = std::max({closing, motions_[pair.a].surprise, motions_[pair.b].surprise});
+        if (reach < kHitLengths * std::min(a.length, b.length)) continue;
+        for (Motion* motion : {&motions_[pair.a], &motions_[pair.b]}) {
+            if (motion->range >= reach) continue;
+            motion->surprise = reach;
+            motion->stray += reach;
+            motion->reach = motion->reach.inflated(reach);
+            motion->range += reach;
+            grew = true;
+        }
+    }
+    return grew;
 }
 
 void ContactFinder::collidePairs(const State& state, const WorldSettings& settings, double dt,

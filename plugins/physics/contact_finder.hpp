@@ -16,6 +16,7 @@ public:
     bool strayed(const State&, double elapsed) const;
 
 private:
+    bool expectHits(const State&, double dt);
     void predict(const State&, const WorldSettings&, double dt);
     void predictBody(const State&, const BodyRecord&, const WorldSettings&, double dt, Motion&, double& budget) const;
     void collidePairs(const State&, const WorldSettings&, double dt, std::span<const ContactPoint> previous,

@@ -18,6 +18,7 @@ struct ContactPoint {
     Index bodyA = 0, bodyB = 0;
     double slop = 0;  // units; overlap that is left in peace, so that resting contacts persist
     double friction = 0, restitution = 0;
+    double surprise = 0;   // units a hit may bring the point nearer than its velocity says
     bool resolve = true;   // false: sensors
     bool inside = false;   // the point began this step inside B and is pushed out through this wall
     bool engaged = false;  // the point has come to the wall from outside
@@ -37,6 +38,7 @@ struct ContactPoint {
 
     // Carried from substep to substep and, by (point, wall), from step to step.
     double normalImpulse = 0, tangentImpulse = 0;  // of the last substep, mass * unit / s
+    double keptImpulse = 0;                        // normalImpulse as it was before this substep
     double stepImpulse = 0;                        // normal, summed over the step
 
     std::uint64_t key() const { return (static_cast<std::uint64_t>(point) << 32) | wall; }

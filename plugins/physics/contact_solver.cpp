@@ -7,7 +7,8 @@ namespace {
 constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;
 constexpr double kPushLengthsPerSecond = 4;  // overlaps are pushed out no faster than this many body lengths a second
 constexpr double kSharpInset = 2, kBluntOverhang = 2;  // in slops
-constexpr int kRestitutionPasses = 4;
+constexpr int kRestitutionPasses = 4, kHitPasses = 12;
+constexpr double kHitSlops = 40;  // contacts closing faster than this many slops a substep are hits
 
 }  // namespace
 
@@ -96,7 +97,7 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
     if (c.separation > 0) {
         const double distance = -c.approachSpeed * h_;
         // What cannot arrive in this substep is left out of the solving; the margin is for what the solving adds.
-        if (c.separation > 2 * distance + 4 * c.slop) return false;
+        if (c.separation > 2 * distance + 4 * c.slop + c.surprise) return false;
         if (distance > 0) along += slide * h_ * std::min(1.0, c.separation / distance);
     }
     const double fromFirst = along * wallLength, fromSecond = (1 - along) * wallLength;
@@ -116,6 +117,8 @@ void ContactSolver::prepare(std::span<ContactPoint> contacts)
             c.normalImpulse = c.tangentImpulse = 0;
             continue;
         }
+        c.keptImpulse = c.normalImpulse;
+        hit_ |= -c.approachSpeed * h_ > kHitSlops * c.slop;
         c.normalMass = effectiveMass(c, c.normal);
         c.tangentMass = effectiveMass(c, perpendicular(c.normal));
         const Nodes& nodes = state_.nodes;
@@ -154,8 +157,10 @@ void ContactSolver::solveOne(ContactPoint& c, Pass pass)
 
 void ContactSolver::solve(std::span<ContactPoint> contacts)
 {
-    for (ContactPoint& c : contacts)
-        if (c.active && c.resolve) solveOne(c, Pass::Push);
+    // One pass a substep suffices for what rests. A hit must go through all it pushes together before anything moves.
+    for (int pass = 0; pass < (hit_ ? kHitPasses : 1); ++pass)
+        for (ContactPoint& c : contacts)
+            if (c.active && c.resolve) solveOne(c, Pass::Push);
 }
 
 void ContactSolver::relax(std::span<ContactPoint> contacts)
@@ -163,8 +168,9 @@ void ContactSolver::relax(std::span<ContactPoint> contacts)
     // The nodes have moved by h times their velocities, and the separations with them.
     for (ContactPoint& c : contacts)
         if (c.active && c.resolve) c.separation += h_ * relativeVelocity(c).dot(c.normal);
-    for (ContactPoint& c : contacts)
-        if (c.active && c.resolve) solveOne(c, Pass::Relax);
+    for (int pass = 0; pass < (hit_ ? kHitPasses : 1); ++pass)
+        for (ContactPoint& c : contacts)
+            if (c.active && c.resolve) solveOne(c, Pass::Relax);
     for (ContactPoint& c : contacts)
         if (c.active && c.resolve) c.stepImpulse += c.normalImpulse;
 }
@@ -183,6 +189,18 @@ void ContactSolver::restitute(std::span<ContactPoint> contacts)
             c.stepImpulse += impulse - c.normalImpulse;
             c.normalImpulse = impulse;
         }
+    }
+}
+
+void ContactSolver::finish(std::span<ContactPoint> contacts)
+{
+    restitute(contacts);
+    if (!hit_) return;
+    // The impulse of a hit is over with the hit: warm-starting from it would throw the bodies back.
+    for (ContactPoint& c : contacts) {
+        c.normalImpulse = std::min(c.normalImpulse, c.keptImpulse);
+        const double most = c.friction * c.normalImpulse;
+        c.tangentImpulse = std::clamp(c.tangentImpulse, -most, most);
     }
 }
 

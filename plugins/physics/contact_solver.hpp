@@ -1,9 +1,9 @@
 // Contacts as soft constraints over substeps ("Soft Step", Catto 2024, https://box2d.org/posts/2024/02/solver2d/).
 //
 // Each substep: prepare -> solve (pushes overlaps out) -> positions move -> relax (takes the pushing velocity back out)
-// -> restitute. Impulses are kept from substep to substep and from step to step (warm starting), which is what lets
-// stacks stand. Position-based contacts (XPBD) and solving each contact once a step were the alternatives: measured,
-// they drop stacks or stretch under load.
+// -> finish (restitution). Impulses are kept from substep to substep and from step to step (warm starting), which is
+// what lets stacks stand. Position-based contacts (XPBD) and solving each contact once a step were the alternatives:
+// measured, they drop stacks or stretch under load.
 #pragma once
 
 #include "contact_point.hpp"
@@ -20,7 +20,8 @@ public:
     void prepare(std::span<ContactPoint>);
     void solve(std::span<ContactPoint>);
     void relax(std::span<ContactPoint>);
-    void restitute(std::span<ContactPoint>);
+    /// Bounces, and what the next substep may know of this one.
+    void finish(std::span<ContactPoint>);
 
 private:
     struct Softness {
@@ -32,6 +33,7 @@ private:
     void refresh(ContactPoint&);
     bool decideActive(ContactPoint&, double wallLength, double slide) const;
     void solveOne(ContactPoint&, Pass);
+    void restitute(std::span<ContactPoint>);
     Vec2 relativeVelocity(const ContactPoint&) const;
     void applyImpulse(const ContactPoint&, const Vec2& impulse);
     double effectiveMass(const ContactPoint&, const Vec2& direction) const;
@@ -40,6 +42,7 @@ private:
     State& state_;
     double h_;
     double restSpeed_;
+    bool hit_ = false;  // does something hit something in this substep?
     Softness moving_, fixed_;
 };
 

@@ -5,11 +5,12 @@ namespace jet::physics {
 namespace {
 
 constexpr Index kManyPoints = 48;  // above this the points near the other body are looked up in the grid
-// How far a point's own outside may lean with a wall's and still be thought to hit it: corners of rigid bodies point
-// away from walls they cannot hit; those of soft bodies may be folded, so more is believed possible.
-constexpr double kRigidLean = 0.3, kSoftLean = 0.6;
-constexpr double kHeldBonus = 0.5;  // a wall that held the point counts as half as far
-constexpr double kShallow = 0.5;    // of the body's length: deeper inside, the nearest wall is taken whatever its side
+// How far a rigid corner's own outside may lean with a wall's and still be thought to hit it; corners point away from
+// walls they cannot hit. The points of a soft body are not asked: where it is crushed its border may be folded.
+constexpr double kLean = 0.3;
+constexpr double kHeldBonus = 0.5;    // a wall that held the point counts as half as far
+constexpr double kFoldedPenalty = 2;  // soft bodies: a wall whose outside does not oppose the point's counts as farther
+constexpr double kShallow = 0.5;  // of the body's length: deeper inside, the nearest wall is taken whatever its side
 
 }  // namespace
 
@@ -31,6 +32,7 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
     ContactPoint contact = pattern;
     contact.bodyA = bodyA;
     contact.bodyB = bodyB;
+    contact.surprise = motionA.surprise + motionB.surprise;
 
     gatherPoints(*a_, motionB.reach.inflated(motionA.range));
     for (Index p : candidates_) {
@@ -51,8 +53,6 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
         if (b_->grid.bounds().inflated(approach.reach).contains(approach.at)) touch(approach, contact, found);
     }
 }
-
-double NarrowPhase::lean() const { return a_->rigid ? kRigidLean : kSoftLean; }
 
 void NarrowPhase::gatherPoints(const BodyRecord& a, const Box& near)
 {
@@ -112,7 +112,7 @@ void NarrowPhase::touch(const Approach& approach, const ContactPoint& pattern, s
         if (!view(contact.wall, approach.at, seen) || seen.separation < -kTouchDepth * pattern.slop ||
             seen.distance > approach.reach)
             return;
-        if (approach.normal.dot(seen.normal) > lean()) return;
+        if (a_->rigid && approach.normal.dot(seen.normal) > kLean) return;
         onSurface |= seen.distance <= kTouchDepth * pattern.slop;
         contact.firstInset = yields(contact.wall, state_.walls.firstEnd, state_.walls.previous, approach);
         contact.secondInset = yields(contact.wall, state_.walls.secondEnd, state_.walls.next, approach);
@@ -131,7 +131,7 @@ bool NarrowPhase::yields(Index wall, const std::vector<WallEnd>& ends, const std
 {
     WallView seen;
     return ends[wall] == WallEnd::Sharp && view(neighbours[wall], approach.at, seen) &&
-           approach.normal.dot(seen.normal) <= lean();
+           approach.normal.dot(seen.normal) <= kLean;
 }
 
 Index NarrowPhase::wallToLeaveThrough(const Approach& approach) const
@@ -145,10 +145,13 @@ Index NarrowPhase::wallToLeaveThrough(const Approach& approach) const
             WallView seen;
             const Index wall = b_->walls.first + edge;
             if (!view(wall, approach.at, seen) || seen.separation >= 0 || seen.distance > radius) return;
-            const double score = seen.distance * (heldBefore(approach.point, wall) ? kHeldBonus : 1);
+            const bool opposes = approach.normal.dot(seen.normal) <= 0;
+            const double score = seen.distance * (heldBefore(approach.point, wall) ? kHeldBonus : 1) *
+                                 (opposes || a_->rigid ? 1 : kFoldedPenalty);
             if (score < nearestScore) nearest = wall, nearestScore = score;
-            if (score < opposedScore && approach.normal.dot(seen.normal) <= 0) opposed = wall, opposedScore = score;
+            if (score < opposedScore && opposes) opposed = wall, opposedScore = score;
         });
+        if (!a_->rigid && nearest != kNone) return nearest;
         if (opposed != kNone && opposedScore <= kShallow * a_->length) return opposed;
         if (nearest != kNone && (opposed != kNone || nearestScore > kShallow * a_->length || radius > extent))
             return nearest;

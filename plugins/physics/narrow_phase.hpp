@@ -32,7 +32,6 @@ private:
         double reach;     // units around `at`
     };
 
-    double lean() const;
     void gatherPoints(const BodyRecord& a, const Box& near);
     void touch(const Approach&, const ContactPoint& pattern, std::vector<ContactPoint>& found);
     /// Near that end of the wall, is the point rather its neighbour's? Then neither catches what slides over the

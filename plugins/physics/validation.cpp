@@ -11,10 +11,12 @@ constexpr double kFarthest = 1e12, kLargest = 1e30;
 
 }  // namespace
 
-void requireFinite(std::string_view what, const Vec2& v)
+void requireFinite(std::string_view what, const Vec2& v) { requireFinite(what, {v.x(), v.y()}); }
+
+void requirePlace(std::string_view what, const Vec2& at)
 {
-    if (!(v.cwiseAbs().maxCoeff() <= kFarthest) || !isFinite(v))
-        fail(std::string(what) + " is not a finite vector of sensible size; give it two ordinary numbers.");
+    if (!(at.cwiseAbs().maxCoeff() <= kFarthest) || !isFinite(at))
+        fail(std::string(what) + " is not a place in the scene; give it two ordinary numbers.");
 }
 
 void requireFinite(std::string_view what, std::initializer_list<double> values)
@@ -68,7 +70,7 @@ void validate(const SoftBodyDef& def, const WorldSettings& settings)
     if (def.masses.size() != count || (!def.movable.empty() && def.movable.size() != count))
         fail("a soft body of " + std::to_string(count) +
              " particles needs as many masses, and as many movable flags or none.");
-    for (const Vec2& at : def.particles) requireFinite("a particle's position", at);
+    for (const Vec2& at : def.particles) requirePlace("a particle's position", at);
     for (double mass : def.masses) {
         requireFinite("a particle's mass", {mass});
         if (!(mass > 0)) fail("a particle's mass must be greater than 0.");
@@ -91,13 +93,13 @@ void validate(const RigidBodyDef& def, const WorldSettings& settings)
     requireFinite("a rigid body's mass", {def.mass});
     if (!(def.mass > 0)) fail("a rigid body's mass must be greater than 0.");
     for (const auto& border : def.borders)
-        for (const Vec2& at : border) requireFinite("a rigid body's border point", at);
+        for (const Vec2& at : border) requirePlace("a rigid body's border point", at);
 }
 
 void validate(const Anchor& anchor, std::size_t bodyCount)
 {
     if (anchor.body != kNoHandle) requireBelow("an anchor's body", anchor.body, bodyCount);
-    requireFinite("an anchor's point", anchor.point);
+    requirePlace("an anchor's point", anchor.point);
 }
 
 }  // namespace jet::physics

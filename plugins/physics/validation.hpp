@@ -10,6 +10,7 @@
 namespace jet::physics {
 
 void requireFinite(std::string_view what, const Vec2&);
+void requirePlace(std::string_view what, const Vec2&);
 void requireFinite(std::string_view what, std::initializer_list<double> values);
 
 void validate(const WorldSettings&);

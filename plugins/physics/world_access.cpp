@@ -99,7 +99,7 @@ void World::setOmega(BodyHandle handle, double omega)
 void World::setPosition(BodyHandle handle, const Vec2& centre)
 {
     requireBelow("body", handle, bodyCount());
-    requireFinite("a position", centre);
+    requirePlace("a position", centre);
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 shift = centre - state_.readings.position[handle];
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;

@@ -97,7 +97,7 @@ void World::substep(double h, int index)
     solver.solve(contacts_);
     integratePositions(state_, h);
     solver.relax(contacts_);
-    solver.restitute(contacts_);
+    solver.finish(contacts_);
 }
 
 void World::report()

@@ -85,8 +85,9 @@ TEST(Motion, TheFourSwitchesWork)
     EXPECT_EQ(world->bodies().position[0].y(), 0);
 
     for (const bool find : {true, false}) {
-        WorldSettings passing;
+        WorldSettings passing = settings;
         passing.gravity = {0, 500};
+        passing.applyGravity = true;
         passing.findCollisions = find;
         passing.resolveCollisions = false;
         auto ghost = JetPhysics().createWorld(passing);

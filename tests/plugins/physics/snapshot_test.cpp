@@ -1,0 +1,121 @@
+// Same scene, same steps: same bits. A snapshot carries everything the future depends on.
+#include "scenes.hpp"
+
+#include <jet/result.hpp>
+
+namespace jet::physics::test {
+
+namespace {
+
+/// Soft and rigid bodies, every kind of actuator, piles and bounces.
+std::unique_ptr<PhysicsWorld> busyWorld(int threads = 1)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 400};
+    settings.linearDamping = 0.05;
+    settings.materials = {MaterialPair{0.5, 0.3, true}};
+    settings.threads = threads;
+    auto world = JetPhysics().createWorld(settings);
+    world->addRigidBody(fixed({boxRing({0, 0}, 640, 640), boxRing({0, 0}, 600, 600)}));
+    for (int i = 0; i < 12; ++i)
+        world->addRigidBody(box({-150.0 + 60 * (i % 6), -100.0 - 50 * (i / 6)}, 25, 25, 1, 0.3 * i));
+    for (int i = 0; i < 4; ++i) world->addSoftBody(softBall({-180.0 + 120 * i, 100}, 30, 200 + 50 * i, 1, 14, 2));
+    SpringActuatorDef spring;
+    spring.a = {1, {-150, -100}};
+    spring.b = {13, {-180, 100}};
+    world->addSpring(spring);
+    AngularSpringActuatorDef hinge;
+    hinge.a = {2, {-90, -100}};
+    hinge.centre = {kNoHandle, {-60, -60}};
+    hinge.b = {3, {-30, -100}};
+    hinge.ks = 300;
+    world->addAngularSpring(hinge);
+    world->addTorque({{14, {-60, 100}}, 200});
+    world->addForce({{4, {30, -100}}, {50, 0}});
+    return world;
+}
+
+TEST(Snapshot, TwoRunsGiveTheSameHashes)
+{
+    auto first = busyWorld(), second = busyWorld(4);
+    for (int i = 0; i < 240; ++i) {
+        first->step(kStep);
+        second->step(kStep);
+        ASSERT_EQ(first->hash(), second->hash()) << "step " << i;
+    }
+}
+
+TEST(Snapshot, TheHashSeesASingleBit)
+{
+    auto first = busyWorld(), second = busyWorld();
+    EXPECT_EQ(first->hash(), second->hash());
+    second->setVelocity(5, {1e-12, 0});
+    EXPECT_NE(first->hash(), second->hash());
+    auto third = busyWorld();
+    third->setTorque(0, 200.0000001);
+    EXPECT_NE(first->hash(), third->hash());
+}
+
+TEST(Snapshot, ARestoredWorldHasTheSameFuture)
+{
+    auto world = busyWorld();
+    for (int i = 0; i < 100; ++i) world->step(kStep);
+    world->applyForce(3, {100, -200});
+    const auto saved = world->save();
+    const std::uint64_t hash = world->hash();
+    const auto contacts = std::vector<Contact>(world->contacts().begin(), world->contacts().end());
+    std::vector<std::uint64_t> future;
+    for (int i = 0; i < 120; ++i) world->step(kStep), future.push_back(world->hash());
+
+    world->restore(saved);
+    EXPECT_EQ(world->hash(), hash);
+    EXPECT_EQ(world->contacts().size(), contacts.size());
+    for (int i = 0; i < 120; ++i) {
+        world->step(kStep);
+        ASSERT_EQ(world->hash(), future[i]) << "same world, step " << i;
+    }
+
+    auto equal = busyWorld();
+    equal->restore(saved);
+    for (int i = 0; i < 120; ++i) {
+        equal->step(kStep);
+        ASSERT_EQ(equal->hash(), future[i]) << "equal world, step " << i;
+    }
+}
+
+TEST(Snapshot, TornSpringsAndGravityAreRestored)
+{
+    auto world = makeWorld({0, 0});
+    SoftBodyDef def;
+    def.particles = {{0, 0}, {10, 0}};
+    def.masses = {1, 1};
+    def.springs = {{0, 1, 4, 1, 0, 2}};
+    world->addSoftBody(def);
+    const auto whole = world->save();
+    world->setGravity({0, 50});
+    world->step(kStep);
+    EXPECT_FALSE(world->springAlive(0, 0));
+    world->restore(whole);
+    EXPECT_TRUE(world->springAlive(0, 0));
+    world->step(kStep);
+    EXPECT_EQ(world->bodies().velocity[0].y(), 0);
+}
+
+TEST(Snapshot, AForeignSnapshotIsRefusedAndChangesNothing)
+{
+    auto world = busyWorld();
+    run(*world, 0.5);
+    auto other = makeWorld({0, 0});
+    other->addRigidBody(box({0, 0}, 1, 1));
+    const std::uint64_t before = world->hash();
+    EXPECT_THROW(world->restore(other->save()), Failure);
+    EXPECT_THROW(world->restore({}), Failure);
+    auto cut = world->save();
+    cut.resize(cut.size() / 2);
+    EXPECT_THROW(world->restore(cut), Failure);
+    EXPECT_EQ(world->hash(), before);
+}
+
+}  // namespace
+
+}  // namespace jet::physics::test

@@ -1,0 +1,46 @@
+// The portable functions agree with the C library's to the last few bits.
+#include "trigonometry.hpp"
+
+#include <gtest/gtest.h>
+
+namespace jet::physics::test {
+
+namespace {
+
+TEST(Trigonometry, DirectionIsCosineAndSine)
+{
+    for (double angle = -50; angle < 50; angle += 0.0137) {
+        EXPECT_NEAR(direction(angle).x(), std::cos(angle), 2e-15);
+        EXPECT_NEAR(direction(angle).y(), std::sin(angle), 2e-15);
+    }
+    EXPECT_NEAR(direction(123456.789).x(), std::cos(123456.789), 1e-12);
+    EXPECT_EQ(direction(0), Vec2(1, 0));
+}
+
+TEST(Trigonometry, AngleOfIsTheArcTangentInAllQuadrants)
+{
+    for (double angle = -3.14; angle < 3.14; angle += 0.00731)
+        EXPECT_NEAR(angleOf(std::sin(angle), std::cos(angle)), angle, 2e-15);
+    EXPECT_EQ(angleOf(0, 0), 0);
+    EXPECT_NEAR(angleOf(0, -1), kPi, 1e-15);
+    EXPECT_NEAR(angleOf(1e-300, 1), 1e-300, 1e-315);
+}
+
+TEST(Trigonometry, DecayIsTheExponential)
+{
+    for (double x = 0; x < 30; x += 0.0931) EXPECT_NEAR(decay(x), std::exp(-x), 1e-14 + 4e-13 * std::exp(-x));
+    EXPECT_EQ(decay(0), 1);
+    EXPECT_EQ(decay(-1), 1);
+    EXPECT_EQ(decay(1e9), 0);
+}
+
+TEST(Trigonometry, WrappedAnglesLieWithinHalfATurn)
+{
+    EXPECT_NEAR(wrapped(3.5), 3.5 - 2 * kPi, 1e-15);
+    EXPECT_NEAR(wrapped(-3.5), 2 * kPi - 3.5, 1e-15);
+    EXPECT_EQ(wrapped(0.25), 0.25);
+}
+
+}  // namespace
+
+}  // namespace jet::physics::test
