@@ -144,12 +144,12 @@ Document::Document(const SourceText& source, Report& report) : source_(source)
         report.note("a byte here is no text in this file's encoding; such bytes are read as '?'",
                     *source.firstBadByte());
     }
-    if (!source.refusedEntities().empty()) {
-        report.note("the entity '" + source.refusedEntities().front() +
-                        "' contains itself or grows beyond measure; it is left out",
-                    0);
-    }
     const std::string& text = source.text();
+    if (!source.refusedEntities().empty()) {
+        const std::string& name = source.refusedEntities().front();
+        report.note("the entity '" + name + "' contains itself or grows beyond measure; it is left out",
+                    std::min(text.find("<!ENTITY " + name), text.size()));
+    }
     const pugi::xml_parse_result parsed =
         xml_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!parsed) brokenAt_ = std::size_t(std::max<std::ptrdiff_t>(parsed.offset, 0));

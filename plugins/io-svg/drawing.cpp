@@ -66,7 +66,7 @@ Result<void> Drawing::draw()
         if (step % kProgressStep == 0 && !request_.progress(done)) return Error("The import was cancelled.");
     }
     if (full_) report_.note("the drawing has more than a million items; the rest is left out", 0);
-    if (pageUnknown_) setPage(request_.parent.bounds().isNull() ? Vec2(0, 0) : request_.parent.bounds().max);
+    if (pageUnknown_) setPage(shapes_.drawn().isNull() ? Vec2(0, 0) : Vec2(shapes_.drawn().max.cwiseMax(0.0)));
     return {};
 }
 

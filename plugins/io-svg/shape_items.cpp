@@ -30,6 +30,15 @@ Color withOpacity(Color color, double opacity)
     return color;
 }
 
+// Scene units; 0 where nothing is stroked. A width knows no direction: under a transform that stretches one way only it
+// grows by the mean.
+double strokeWidth(const Place& place)
+{
+    const Style& style = place.style;
+    if (style.stroke.kind == Paint::Kind::None) return 0;
+    return std::min(style.strokeWidth * (style.fixedStroke ? 1 : place.toScene.meanScale()), kWidest);
+}
+
 // pathLength says how long the author takes the path to be; dashes are measured in that.
 double dashScale(const Element& element, const Path& path)
 {
@@ -59,6 +68,7 @@ void ShapeItems::add(ElementIndex e, std::string_view name, const Place& place)
         report_.count("a shape has coordinates beyond all bounds; it is left out", document_.offsetOf(e));
         return;
     }
+    if (place.shown && place.style.visible) drawn_.extend(placed.bounds().inflated(0.5 * strokeWidth(place)));
     const Item& item = edit_.add<ShapeItem>(*place.container, std::move(placed));
     ++count_;
     if (!name.empty()) edit_.set(item, "name", name);
@@ -83,13 +93,13 @@ void ShapeItems::addFace(const Item& item, ElementIndex e, const Place& place)
 void ShapeItems::addStroke(const Item& item, ElementIndex e, const Place& place, double dashScale)
 {
     const Style& style = place.style;
-    if (!(style.strokeWidth > 0)) return;
+    if (!(strokeWidth(place) > 0)) return;
     const std::optional<Color> color = paints_.colorOf(style.stroke, style, e);
     if (!color) return;
     const double scale = style.fixedStroke ? 1 : place.toScene.meanScale();
     addEffect(item, e, "stroke",
               {{"color", withOpacity(*color, style.strokeOpacity * place.opacity)},
-               {"width", std::min(style.strokeWidth * scale, kWidest)},
+               {"width", strokeWidth(place)},
                {"cap", style.cap},
                {"join", style.join},
                {"miter-limit", std::min(style.miterLimit, kMostMiter)},

@@ -31,6 +31,8 @@ public:
     /// Adds the shape element `e`, unless it has no extent or lies beyond all bounds.
     void add(ElementIndex e, std::string_view name, const Place& place);
     std::size_t count() const { return count_; }
+    /// Scene units: of all shapes shown, with the widths of their strokes.
+    const Box& drawn() const { return drawn_; }
 
 private:
     void addFace(const Item& item, ElementIndex e, const Place& place);
@@ -43,6 +45,7 @@ private:
     Report& report_;
     std::set<std::string, std::less<>> missing_;  // effects that could not be added
     std::size_t count_ = 0;
+    Box drawn_;
 };
 
 }  // namespace jet::svg

@@ -61,7 +61,10 @@ public:
         Path result = Path::parsePrefix(data, &problem);
         if (!problem.message.empty()) {
             const auto column = std::size_t(std::max(problem.where.column, 1) - 1);
-            report_.note(problem.message + "; the path is drawn up to there", document_.offsetOf(e_, "d") + column);
+            std::string message = problem.message;
+            if (message.ends_with('.')) message.pop_back();
+            message.front() = lower(message.front());
+            report_.note(message + "; the path is drawn up to there", document_.offsetOf(e_, "d") + column);
         }
         return result;
     }

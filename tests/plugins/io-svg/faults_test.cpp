@@ -2,7 +2,7 @@
 // ever.
 #include "svg_fixture.hpp"
 
-#include <chrono>
+#include <ctime>
 
 namespace jet::test {
 
@@ -15,13 +15,13 @@ protected:
         return result;
     }
 
-    /// Seconds since the test began.
-    double elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    /// Seconds of processor time since the test began: other work on the machine does not count.
+    double elapsed() const { return double(std::clock() - start_) / CLOCKS_PER_SEC; }
 
     static constexpr double kLimit = 2;  // seconds any file may take
 
 private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::clock_t start_ = std::clock();
 };
 
 TEST_F(SvgFaultsTest, AFaultyPathIsDrawnUpToTheFaultAndItsPlaceIsTold)
@@ -109,14 +109,14 @@ TEST_F(SvgFaultsTest, AUseBombIsDefused)
 
 TEST_F(SvgFaultsTest, AnEntityBombIsDefused)
 {
-    std::string type = "<!DOCTYPE svg [<!ENTITY e0 'ha'>";
+    std::string type = "<!DOCTYPE svg [\n<!ENTITY e0 'ha'>";
     for (int i = 1; i <= 9; ++i) {
         type += "<!ENTITY e" + std::to_string(i) + " '" + repeated("&e" + std::to_string(i - 1) + ";", 10) + "'>";
     }
     ASSERT_TRUE(importText(
         type + "<!ENTITY round '&round;'>]><svg><title>&e9;&round;</title><rect width='5' height='5'/></svg>"));
     EXPECT_EQ(shapes().size(), 1u);
-    EXPECT_TRUE(noted("grows beyond measure")) << allNotes();
+    EXPECT_TRUE(noted("grows beyond measure", 2)) << allNotes();
     EXPECT_LT(elapsed(), kLimit);
 }
 

@@ -28,6 +28,20 @@ TEST_F(SvgGeometryTest, AViewBoxAloneGivesThePage)
     expectBox(bounds(), Box({0, 0}, {1, 1}));
 }
 
+TEST_F(SvgGeometryTest, ADrawingWithoutASizeEndsWithItsShapes)
+{
+    draw("<rect x='10' y='10' width='50' height='20' stroke='red' stroke-width='4'/>", "");
+    EXPECT_DOUBLE_EQ(scene_.setting("page-width").as<double>(), 62);
+    EXPECT_DOUBLE_EQ(scene_.setting("page-height").as<double>(), 32);
+}
+
+TEST_F(SvgGeometryTest, ADrawingPutIntoAnotherLeavesThePage)
+{
+    draw("<rect width='5' height='5'/>", "width='40' height='30'");
+    draw("<rect width='5' height='5'/>", "width='400' height='300'");
+    EXPECT_DOUBLE_EQ(scene_.setting("page-width").as<double>(), 40);
+}
+
 struct ViewBoxCase {
     const char* aspect;
     Box expected;  // of a viewBox 10 x 10 in a page of 200 x 100
