@@ -2,20 +2,33 @@
 
 #include <jet/ui/icons.hpp>
 
+#include <QTabBar>
+#include <QToolButton>
+
 namespace jet::host {
 
 Documents::Documents(Editor& editor, ToolOptions& options, QWidget* parent)
     : QTabWidget(parent), editor_(editor), options_(options)
 {
     setDocumentMode(true);
-    setTabsClosable(true);
     setMovable(true);
     setElideMode(Qt::ElideRight);
-    connect(this, &QTabWidget::tabCloseRequested, this, [this](int index) { closePage(widget(index)); });
     connect(this, &QTabWidget::currentChanged, this, [this] {
         emit frontChanged();
         if (currentWidget()) currentWidget()->setFocus();
     });
+}
+
+void Documents::addPage(QWidget* page, const char* icon, const QString& title)
+{
+    const int index = addTab(page, ui::icon(icon), title);
+    auto* close = new QToolButton(this);  // the style's own close button does not follow the palette
+    close->setIcon(ui::icon("close"));
+    close->setIconSize(QSize(12, 12));
+    close->setAutoRaise(true);
+    close->setToolTip(tr("Close"));
+    connect(close, &QToolButton::clicked, page, [this, page] { closePage(page); });
+    tabBar()->setTabButton(index, QTabBar::RightSide, close);
 }
 
 SceneView& Documents::openScene(Scene& scene)
@@ -25,7 +38,7 @@ SceneView& Documents::openScene(Scene& scene)
         view = new SceneView(scene, editor_, options_, this);
         view->keepAllFramed();
         emit viewOpened(view);
-        addTab(view, ui::icon("scene"), QString::fromStdString(scene.name()));
+        addPage(view, "scene", QString::fromStdString(scene.name()));
     }
     setCurrentWidget(view);
     return *view;
@@ -39,7 +52,7 @@ ScriptTab& Documents::openScript(Scene& scene, ItemId script, int line)
     }
     if (!tab) {
         tab = new ScriptTab(scene, script, editor_, this);
-        addTab(tab, ui::icon("script"), tab->title());
+        addPage(tab, "script", tab->title());
         connect(tab, &ScriptTab::titleChanged, this, &Documents::updateTitles);
         connect(tab, &ScriptTab::scriptGone, this, [this, tab] { closePage(tab); });
     }

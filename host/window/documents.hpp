@@ -48,6 +48,7 @@ private:
         }
         return found;
     }
+    void addPage(QWidget* page, const char* icon, const QString& title);
     void closePage(QWidget* page);
 
     Editor& editor_;

@@ -1,8 +1,9 @@
 #include "window/theme.hpp"
 
+#include "window/editor_style.hpp"
+
 #include <QApplication>
 #include <QPalette>
-#include <QStyleFactory>
 
 namespace jet::host {
 
@@ -60,6 +61,14 @@ QTabBar::tab:hover:!selected { background: #2f3237; }
 QTabBar::tab:bottom { border-top: none; border-bottom: 2px solid transparent; }
 QTabBar::tab:bottom:selected { border-bottom: 2px solid #2f6fd6; }
 QTabWidget::pane { border: none; }
+QTabBar QToolButton { border: none; border-radius: 3px; padding: 1px; }
+QTabBar QToolButton:hover { background: #4a4e55; }
+QPushButton { background: #383b40; border: 1px solid #1b1c1f; border-radius: 4px; padding: 5px 10px; }
+QPushButton:hover { background: #44484f; }
+QPushButton:pressed { background: #2a2c30; }
+QPushButton:default { border-color: #2f6fd6; }
+QPushButton:disabled { color: #7c8088; }
+QStatusBar QLabel { padding: 1px 8px; }
 QHeaderView::section { background: #2b2d31; border: none; padding: 3px; }
 QTreeView, QListView, QPlainTextEdit { border: 1px solid #1b1c1f; }
 )";
@@ -68,7 +77,7 @@ QTreeView, QListView, QPlainTextEdit { border: 1px solid #1b1c1f; }
 
 void applyTheme(QApplication& application)
 {
-    QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    QApplication::setStyle(new EditorStyle);  // the application takes it
     QApplication::setPalette(darkPalette());
     application.setStyleSheet(QLatin1String(kStyleSheet));
 }
