@@ -2,6 +2,7 @@
 // does not depend on how many listeners there are elsewhere. Slots freed during delivery are reused only after it ended.
 #include <jet/events.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <deque>
 #include <exception>
@@ -17,7 +18,8 @@ namespace {
 
 struct Slot {
     std::function<void(const void*)> handler;
-    std::uint64_t serial = 0;  // when it subscribed; 0: free
+    std::uint64_t serial = 0;  // when it subscribed: ascending within a channel
+    bool alive = true;
 };
 
 struct Key {
@@ -36,12 +38,15 @@ struct Channel {
     std::deque<Slot> slots;  // a deque: a handler stays where it is while others subscribe
     std::size_t alive = 0;
     int delivering = 0;
+    bool leftWhileDelivering = false;
 };
+
+using Channels = std::unordered_map<Key, std::unique_ptr<Channel>, KeyHash>;
 
 }  // namespace
 
 struct EventsCenter::Private {
-    std::unordered_map<Key, std::unique_ptr<Channel>, KeyHash> channels;
+    Channels channels;
     std::uint64_t serial = 0;
     std::size_t listeners = 0;
     std::thread::id owner = std::this_thread::get_id();
@@ -51,13 +56,16 @@ struct EventsCenter::Private {
     std::deque<std::function<void()>> queue;
     std::function<void()> wakeUp;
 
-    void run(Channel& channel, const void* event)
+    void run(const Key& key, const void* event)
     {
+        const auto found = channels.find(key);
+        if (found == channels.end()) return;
+        Channel& channel = *found->second;
         const std::uint64_t last = serial;  // who subscribes during delivery hears from the next event on
         ++channel.delivering;
         for (std::size_t i = 0, n = channel.slots.size(); i < n; ++i) {
             Slot& slot = channel.slots[i];
-            if (slot.serial == 0 || slot.serial > last) continue;
+            if (!slot.alive || slot.serial > last) continue;
             try {
                 slot.handler(event);
             } catch (...) {
@@ -65,19 +73,33 @@ struct EventsCenter::Private {
             }
         }
         --channel.delivering;
-        if (channel.delivering == 0) sweep(channel);
+        sweep(key);
     }
 
-    void sweep(Channel& channel)
+    // Frees the slots of those who left, once they are many or still hold their handlers. Handlers may own objects that end subscriptions of their
+    // own: they are destroyed last, when the channel is in order again.
+    void sweep(const Key& key)
     {
-        if (channel.alive == channel.slots.size()) return;
-        std::erase_if(channel.slots, [](const Slot& slot) { return slot.serial == 0; });
+        const auto found = channels.find(key);
+        if (found == channels.end()) return;
+        Channel& channel = *found->second;
+        const std::size_t left = channel.slots.size() - channel.alive;
+        if (channel.delivering > 0 || left == 0 || (left < channel.alive && !channel.leftWhileDelivering)) return;
+        std::unique_ptr<Channel> old = std::exchange(found->second, nullptr);
+        if (old->alive == 0) {
+            channels.erase(found);
+            return;
+        }
+        found->second = std::make_unique<Channel>();
+        found->second->alive = old->alive;
+        for (Slot& slot : old->slots)
+            if (slot.alive) found->second->slots.push_back(std::move(slot));
     }
 
     void report(std::exception_ptr problem)
     {
-        if (onException) return onException(problem);
         try {
+            if (onException) return onException(problem);
             std::rethrow_exception(problem);
         } catch (const std::exception& e) {
             std::fprintf(stderr, "error: an event listener failed: %s\n", e.what());
@@ -113,17 +135,20 @@ void Subscription::reset()
     const auto found = center->channels.find(link->key);
     if (found == center->channels.end()) return;
     Channel& channel = *found->second;
-    for (Slot& slot : channel.slots) {
-        if (slot.serial != link->serial) continue;
-        slot.serial = 0;  // the handler itself may be running: it is destroyed by the sweep
-        --channel.alive;
-        --center->listeners;
-        break;
-    }
+    const auto slot = std::lower_bound(channel.slots.begin(), channel.slots.end(), link->serial,
+                                       [](const Slot& s, std::uint64_t serial) { return s.serial < serial; });
+    if (slot == channel.slots.end() || slot->serial != link->serial || !slot->alive) return;
+    slot->alive = false;
+    --channel.alive;
+    --center->listeners;
+    // What the handler holds goes now, unless it may be the one that is running.
+    std::function<void(const void*)> handler;
     if (channel.delivering == 0) {
-        center->sweep(channel);
-        if (channel.slots.empty()) center->channels.erase(found);
+        handler = std::move(slot->handler);
+    } else {
+        channel.leftWhileDelivering = true;
     }
+    center->sweep(link->key);
 }
 
 EventsCenter::EventsCenter() : d_(std::make_shared<Private>()) {}
@@ -134,7 +159,7 @@ Subscription EventsCenter::subscribeErased(const void* sender, EventType type, s
     const Key key{sender, type.hash};
     auto& channel = d_->channels[key];
     if (!channel) channel = std::make_unique<Channel>();
-    channel->slots.push_back({std::move(handler), ++d_->serial});
+    channel->slots.push_back({std::move(handler), ++d_->serial, true});
     ++channel->alive;
     ++d_->listeners;
     Subscription subscription;
@@ -145,12 +170,8 @@ Subscription EventsCenter::subscribeErased(const void* sender, EventType type, s
 void EventsCenter::deliver(const void* sender, EventType type, const void* event)
 {
     const auto keepAlive = d_;  // a listener may destroy the center's owner
-    const auto send = [&](const void* from) {
-        const auto found = keepAlive->channels.find(Key{from, type.hash});
-        if (found != keepAlive->channels.end()) keepAlive->run(*found->second, event);
-    };
-    send(sender);
-    if (sender) send(nullptr);
+    keepAlive->run(Key{sender, type.hash}, event);
+    if (sender) keepAlive->run(Key{nullptr, type.hash}, event);
 }
 
 bool EventsCenter::onOwnerThread() const { return std::this_thread::get_id() == d_->owner; }
@@ -168,12 +189,21 @@ void EventsCenter::enqueue(std::function<void()> task)
 
 void EventsCenter::dispatchQueued()
 {
+    const std::weak_ptr<Private> center = d_;
     std::deque<std::function<void()>> tasks;
     {
         const std::lock_guard lock(d_->mutex);
         tasks.swap(d_->queue);
     }
-    for (auto& task : tasks) task();
+    for (auto& task : tasks) {
+        const auto alive = center.lock();
+        if (!alive) return;  // a task before destroyed the center
+        try {
+            task();
+        } catch (...) {
+            alive->report(std::current_exception());
+        }
+    }
 }
 
 void EventsCenter::setWakeUp(std::function<void()> wakeUp)

@@ -17,7 +17,7 @@ Error systemError(const fs::path& file, const std::string& what, int code)
     std::string remedy;
     if (code == EACCES || code == EPERM) remedy = "; check the permissions of the file and its folder";
     if (code == EROFS) remedy = "; the file system is read-only: choose another place";
-    if (code == ENOSPC || code == EDQUOT) remedy = "; free some space or choose another place";
+    if (code == ENOSPC || code == EDQUOT || code == EFBIG) remedy = "; free some space or choose another place";
     if (code == ENOENT) remedy = "; check the name and that its folder exists";
     return Error(what + ": " + std::strerror(code) + remedy, Location{file.string(), 0, 0});
 }
@@ -38,6 +38,8 @@ private:
     int fd_;
 };
 
+constexpr std::size_t kLargestFile = 0xffffffffU;  // places in it are kept in 32 bits
+
 bool writeAll(int fd, std::span<const std::byte> content)
 {
     while (!content.empty()) {
@@ -47,6 +49,16 @@ bool writeAll(int fd, std::span<const std::byte> content)
         content = content.subspan(static_cast<std::size_t>(n));
     }
     return true;
+}
+
+// A device or a pipe (/dev/stdout) has no old content to keep, and renaming a file over it would destroy it.
+Result<void> writeInto(const fs::path& file, std::span<const std::byte> content)
+{
+    Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    if (out.get() < 0) return systemError(file, "cannot be written", errno);
+    if (!writeAll(out.get(), content)) return systemError(file, "cannot be written", errno);
+    if (out.close() != 0) return systemError(file, "cannot be written", errno);
+    return {};
 }
 
 }  // namespace
@@ -75,6 +87,8 @@ Result<std::string> readFile(const fs::path& file)
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) return systemError(file, "cannot be read", errno);
         if (n == 0) return content;
+        if (content.size() > kLargestFile)
+            return Error("is larger than 4 GB; this is no file for JET", Location{file.string(), 0, 0});
         content.append(buffer, static_cast<std::size_t>(n));
     }
 }
@@ -85,12 +99,14 @@ Result<void> writeFileAtomically(const fs::path& file, std::span<const std::byte
     const fs::path target = fs::is_symlink(file, ignored) ? fs::weakly_canonical(file, ignored) : file;
     if (fs::is_directory(target, ignored))
         return Error("is a folder; name a file to write", Location{file.string(), 0, 0});
-    // A read-only target is a wish to keep it: rename() alone would replace it.
-    if (::access(target.c_str(), F_OK) == 0 && ::access(target.c_str(), W_OK) != 0)
-        return systemError(file, "cannot be written", errno);
     struct stat old {};
-    if (::stat(target.c_str(), &old) == 0 && (old.st_mode & 0222) == 0) return systemError(file, "cannot be written", EACCES);
-    const mode_t mode = ::stat(target.c_str(), &old) == 0 ? old.st_mode & 07777 : 0666;
+    const bool exists = ::stat(target.c_str(), &old) == 0;
+    if (exists && !S_ISREG(old.st_mode)) return writeInto(file, content);
+    // A read-only target is a wish to keep it: rename() alone would replace it.
+    if (exists && ::access(target.c_str(), W_OK) != 0)
+        return systemError(file, "cannot be written", errno);
+    if (exists && (old.st_mode & 0222) == 0) return systemError(file, "cannot be written", EACCES);
+    const mode_t mode = exists ? old.st_mode & 07777 : 0666;
 
     const fs::path temporary = target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part");
     Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
@@ -100,7 +116,7 @@ Result<void> writeFileAtomically(const fs::path& file, std::span<const std::byte
         return systemError(file, "cannot be written", code);
     };
     if (!writeAll(out.get(), content) || ::fsync(out.get()) != 0) return giveUp(errno);
-    if (::stat(target.c_str(), &old) == 0) (void)!::fchmod(out.get(), mode);
+    if (exists) (void)!::fchmod(out.get(), mode);
     if (out.close() != 0) return giveUp(errno);
     if (::rename(temporary.c_str(), target.c_str()) != 0) return giveUp(errno);
     const fs::path folder = target.parent_path().empty() ? fs::path(".") : target.parent_path();

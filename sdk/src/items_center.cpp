@@ -83,6 +83,23 @@ Item& ItemsCenter::Private::get(ItemId id)
     return *found->second;
 }
 
+bool ItemsCenter::Private::owns(const Item& item) const
+{
+    const auto found = byId.find(item.id().value);
+    return found != byId.end() && found->second == &item;
+}
+
+void ItemsCenter::Private::own(const Item& item) const
+{
+    if (!owns(item)) throw Failure(Error("'" + item.name() + "' is not in this scene, or not any more"));
+}
+
+void ItemsCenter::Private::ownChangeable(const Item& item) const
+{
+    own(item);
+    if (item.id() == kRootId) throw Failure(Error("the top group of a scene cannot be changed; change what is in it"));
+}
+
 void ItemsCenter::Private::enlist(Item& subtree)
 {
     subtree.walk([this](const Item& item) {
@@ -96,10 +113,10 @@ void ItemsCenter::Private::delist(const Item& subtree)
     bool selectedGone = false;
     subtree.walk([&](const Item& item) {
         byId.erase(item.id().value);
-        selectedGone = selectedGone || std::find(selection.begin(), selection.end(), item.id()) != selection.end();
+        scene.dropEffectStates(item.id());
+        selectedGone = selectedGone || selected.contains(item.id().value);
     });
-    if (!selectedGone) return;
-    setSelection(selection);
+    if (selectedGone) setSelection(selection);
 }
 
 void ItemsCenter::Private::insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item)
@@ -198,13 +215,13 @@ void ItemsCenter::Private::revertAll()
 
 void ItemsCenter::Private::setSelection(std::vector<ItemId> items)
 {
-    std::vector<ItemId> kept;
-    for (const ItemId id : items) {
-        const bool known = byId.contains(id.value) && id != kRootId;
-        if (known && (items.size() < 2 || std::find(kept.begin(), kept.end(), id) == kept.end())) kept.push_back(id);
-    }
-    if (kept == selection) return;
-    selection = std::move(kept);
+    std::unordered_set<std::uint64_t> known;
+    std::erase_if(items, [&](ItemId id) {
+        return id == kRootId || !byId.contains(id.value) || !known.insert(id.value).second;
+    });
+    if (items == selection) return;
+    selection = std::move(items);
+    selected = std::move(known);
     events.post(&scene, SelectionChanged{&scene});
 }
 
@@ -254,7 +271,7 @@ const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection
 
 bool ItemsCenter::isSelected(ItemId id) const
 {
-    return std::find(d_->selection.begin(), d_->selection.end(), id) != d_->selection.end();
+    return d_->selected.contains(id.value);
 }
 
 void ItemsCenter::setSelection(std::vector<ItemId> items) { d_->setSelection(std::move(items)); }

@@ -1,4 +1,5 @@
 #include "hasher.hpp"
+#include "xml_text.hpp"
 
 #include <jet/catalog.hpp>
 #include <jet/project.hpp>
@@ -36,7 +37,7 @@ std::unique_ptr<Project> Project::create(std::string name, EventsCenter& events,
     Scene& scene = project->addScene("Scene 0");
     SceneBuilder builder(scene);
     builder.setName(builder.add(builder.root(), {}, LayerItem::type), "Layer");
-    project->structureChanged_ = false;  // an untouched new project may be closed without a question
+    project->savedStructure_ = project->structure();  // an untouched new project may be closed without a question
     return project;
 }
 
@@ -58,7 +59,6 @@ Scene& Project::addScene(std::string name, Filter* filter)
 {
     auto& scenes = (filter ? *filter : root_).scenes;
     scenes.push_back(std::make_unique<Scene>(std::move(name), events_, catalog_));
-    structureChanged_ = true;
     return *scenes.back();
 }
 
@@ -69,7 +69,6 @@ void Project::removeScene(const Scene& scene)
         sceneFiles_.erase(file);
     }
     eraseScene(root_, scene);
-    structureChanged_ = true;
 }
 
 std::string Project::freeSceneName() const
@@ -80,9 +79,27 @@ std::string Project::freeSceneName() const
     }
 }
 
+std::string Project::structure() const
+{
+    std::string out = "<jet-project version=\"1\"" + xmlAttribute("name", name_) + ">\n";
+    const auto append = [&](const auto& self, const Filter& filter, std::size_t depth) -> void {
+        const std::string indent(depth * 2, ' ');
+        out += indent + "<filter" + xmlAttribute("name", filter.name) + ">\n";
+        for (const auto& scene : filter.scenes) {
+            const auto file = sceneFiles_.find(scene.get());
+            out += indent + "  <scene" + xmlAttribute("name", scene->name()) +
+                   xmlAttribute("file", file == sceneFiles_.end() ? "" : file->second) + "/>\n";
+        }
+        for (const auto& child : filter.filters) self(self, *child, depth + 1);
+        out += indent + "</filter>\n";
+    };
+    append(append, root_, 1);
+    return out + "</jet-project>\n";
+}
+
 bool Project::isModified() const
 {
-    if (structureChanged_) return true;
+    if (structure() != savedStructure_) return true;
     const auto all = scenes();
     return std::any_of(all.begin(), all.end(), [](const Scene* scene) { return !scene->undoRedo().isClean(); });
 }
@@ -101,15 +118,20 @@ std::vector<PluginUse> Project::pluginsUsed() const
         use.id = provider.substr(0, space), use.version = provider.substr(space + 1);
         ++use.count;
     };
-    for (const Scene* scene : scenes())
+    for (const Scene* scene : scenes()) {
+        if (const auto engine = scene->setting("physics").as<std::string>(); !engine.empty())
+            count(ContributionKind::PhysicsEngine, engine);
         scene->root().walk([&](const Item& item) {
             if (!builtInItemType(item.type())) count(ContributionKind::ItemType, item.type());
             for (const EffectInstance& effect : item.effects()) count(ContributionKind::Effect, effect.type);
         });
-    // A plugin that is not installed cannot be counted: what the file said of it stays.
+    }
+    // What no installed plugin provides cannot be counted: then what the file said of the others stays.
+    const bool allKnown = std::ranges::none_of(providers, [](const auto& known) { return known.second.empty(); });
     for (const PluginUse& recorded : recordedUses_)
-        if (!uses.contains(recorded.id)) uses.emplace(recorded.id, recorded);
+        if (!allKnown && !uses.contains(recorded.id)) uses.emplace(recorded.id, recorded);
     std::vector<PluginUse> list;
+    list.reserve(uses.size());
     for (auto& [id, use] : uses) list.push_back(std::move(use));
     return list;
 }

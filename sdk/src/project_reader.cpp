@@ -1,3 +1,4 @@
+#include "project_files.hpp"
 #include "xml_text.hpp"
 
 #include <jet/catalog.hpp>
@@ -24,6 +25,7 @@ public:
         if (source_.required(root, "version") != "1")
             source_.fail(root, "this project has format version " + std::string(root.attribute("version").value()) +
                                    "; this JET reads version 1: open it with a newer JET");
+        source_.onlyAttributes(root, {"version", "name"});
         project_.name_ = source_.required(root, "name");
         bool found = false;
         for (const pugi::xml_node child : root.children()) {
@@ -35,7 +37,7 @@ public:
                 readFilter(child, project_.root_, 0);
                 found = true;
             } else {
-                source_.fail(child, "<" + std::string(name) + "> is not known here; a project holds <plugins> and <filter>");
+                source_.unexpected(child, "a project holds <plugins> and <filter>");
             }
         }
         if (!found) source_.fail(root, "the project has no <filter>; add <filter name=\"Filter0\"> with its scenes");
@@ -44,15 +46,21 @@ public:
 private:
     void readPlugins(const pugi::xml_node& node)
     {
-        for (const pugi::xml_node child : node.children("plugin"))
+        for (const pugi::xml_node child : node.children()) {
+            if (std::string_view(child.name()) != "plugin") {
+                source_.unexpected(child, "<plugins> holds <plugin>");
+                continue;
+            }
             project_.recordedUses_.push_back({std::string(source_.required(child, "id")),
                                               std::string(source_.required(child, "version")),
                                               child.attribute("uses").as_int()});
+        }
     }
 
     void readFilter(const pugi::xml_node& node, Filter& filter, int depth)
     {
-        if (depth > 100) source_.fail(node, "filters are nested more than 100 deep");
+        if (depth > kMaximumFilterDepth) source_.fail(node, "filters are nested more than 100 deep; flatten them");
+        source_.onlyAttributes(node, {"name"});
         filter.name = source_.required(node, "name");
         for (const pugi::xml_node child : node.children()) {
             const std::string_view name = child.name();
@@ -62,13 +70,14 @@ private:
                 filter.filters.push_back(std::make_unique<Filter>());
                 readFilter(child, *filter.filters.back(), depth + 1);
             } else {
-                source_.fail(child, "<" + std::string(name) + "> is not known here; a filter holds <scene> and <filter>");
+                source_.unexpected(child, "a filter holds <scene> and <filter>");
             }
         }
     }
 
     void readScene(const pugi::xml_node& node, Filter& filter)
     {
+        source_.onlyAttributes(node, {"name", "file"});
         const std::string name(source_.required(node, "name"));
         const std::string relative(source_.required(node, "file"));
         const fs::path inside = fs::path(relative).lexically_normal();
@@ -77,7 +86,8 @@ private:
         if (!names_.insert(name).second) source_.fail(node, "there are two scenes called '" + name + "'; rename one");
         if (!files_.insert(inside).second) source_.fail(node, "two scenes share the file '" + relative + "'");
         const fs::path file = project_.file_.parent_path() / inside;
-        if (!fs::exists(file))
+        std::error_code ignored;
+        if (!fs::exists(file, ignored))
             source_.fail(node, "the scene file '" + relative + "' is missing; restore it, or remove this line to go on without '" +
                                    name + "'");
         auto text = readFile(file);
@@ -132,7 +142,7 @@ Result<std::unique_ptr<Project>> Project::load(const fs::path& path, EventsCente
     } catch (const Failure& failure) {
         return failure.error();
     }
-    project->structureChanged_ = false;
+    project->savedStructure_ = project->structure();
     return project;
 }
 

@@ -1,3 +1,5 @@
+#include "project_files.hpp"
+#include "utf8.hpp"
 #include "xml_text.hpp"
 
 #include <jet/catalog.hpp>
@@ -16,29 +18,79 @@ public:
     /// Scenes first, project.jet next, then what nobody refers to any more: a crash between leaves a project that opens.
     Result<void> write(bool everything)
     {
-        std::error_code problem;
-        fs::create_directories(folder_ / "scenes", problem);
-        if (problem)
-            return Error("the folder for scenes cannot be made: " + problem.message() + "; choose another place",
-                         Location{(folder_ / "scenes").string(), 0, 0});
+        if (const auto fine = check(); !fine) return fine;
         assignFiles();
-        for (Scene* scene : project_.scenes()) {
-            const fs::path file = folder_ / project_.sceneFiles_[scene];
-            if (!everything && scene->undoRedo().isClean() && !fresh_.contains(scene)) continue;
-            if (const auto written = writeFileAtomically(file, writeSceneText(*scene)); !written) return written;
-        }
-        if (everything || project_.structureChanged_ || !fresh_.empty() || usesChanged()) {
-            if (const auto written = writeFileAtomically(project_.file_, text()); !written) return written;
-            project_.recordedUses_ = project_.pluginsUsed();
-        }
-        for (Scene* scene : project_.scenes()) scene->undoRedo().markClean();
-        for (const fs::path& file : project_.obsoleteFiles_) fs::remove(folder_ / file, problem);
-        project_.obsoleteFiles_.clear();
-        project_.structureChanged_ = false;
-        return {};
+        auto written = writeFiles(everything);
+        // A scene without a file on disk must be written next time, even if nobody changes it before.
+        if (!written)
+            for (const Scene* scene : fresh_) project_.sceneFiles_.erase(scene);
+        return written;
     }
 
 private:
+    Result<void> writeFiles(bool everything)
+    {
+        for (const Scene* scene : project_.scenes()) {
+            if (!everything && scene->undoRedo().isClean() && !fresh_.contains(scene)) continue;
+            const fs::path file = folder_ / project_.sceneFiles_[scene];
+            if (const auto made = makeFolder(file.parent_path()); !made) return made;
+            if (const auto written = writeFileAtomically(file, writeSceneText(*scene)); !written) return written;
+        }
+        const std::string structure = project_.structure();
+        if (everything || structure != project_.savedStructure_ || usesChanged()) {
+            if (const auto made = makeFolder(folder_); !made) return made;
+            if (const auto written = writeFileAtomically(project_.file_, text(structure)); !written) return written;
+            project_.recordedUses_ = project_.pluginsUsed();
+            project_.savedStructure_ = structure;
+        }
+        for (Scene* scene : project_.scenes()) scene->undoRedo().markClean();
+        removeObsolete();
+        return {};
+    }
+
+    // What could be written but not opened again is refused before anything is written.
+    Result<void> check() const
+    {
+        std::set<std::string> names;
+        for (const Scene* scene : project_.scenes()) {
+            if (!names.insert(scene->name()).second)
+                return Error("there are two scenes called '" + scene->name() + "'; rename one, then save again");
+            if (firstUnstorable(scene->name()) != std::string::npos)
+                return Error("the name of a scene is not UTF-8 or has a NUL in it; rename it, then save again");
+        }
+        if (firstUnstorable(project_.name_) != std::string::npos)
+            return Error("the project's name is not UTF-8 or has a NUL in it; rename it, then save again");
+        return check(project_.root_, 0);
+    }
+
+    static Result<void> check(const Filter& filter, int depth)
+    {
+        if (depth > kMaximumFilterDepth) return Error("filters are nested more than 100 deep; flatten them, then save again");
+        if (firstUnstorable(filter.name) != std::string::npos)
+            return Error("the name of a filter is not UTF-8 or has a NUL in it; rename it, then save again");
+        for (const auto& child : filter.filters)
+            if (const auto fine = check(*child, depth + 1); !fine) return fine;
+        return {};
+    }
+
+    static Result<void> makeFolder(const fs::path& folder)
+    {
+        std::error_code problem;
+        if (!folder.empty()) fs::create_directories(folder, problem);
+        if (!problem) return {};
+        return Error("this folder cannot be made: " + problem.message() + "; choose another place", Location{folder.string(), 0, 0});
+    }
+
+    void removeObsolete()
+    {
+        std::error_code ignored;
+        std::set<std::string> used;
+        for (const auto& [scene, file] : project_.sceneFiles_) used.insert(file);
+        for (const fs::path& file : project_.obsoleteFiles_)
+            if (!used.contains(file.string())) fs::remove(folder_ / file, ignored);
+        project_.obsoleteFiles_.clear();
+    }
+
     static std::string safeName(const std::string& name)
     {
         std::string safe;
@@ -47,17 +99,22 @@ private:
             safe += bad ? '_' : c;
         }
         while (!safe.empty() && (safe.front() == '.' || safe.front() == ' ')) safe.erase(0, 1);
-        if (safe.size() > 100) safe.resize(100);
+        std::size_t length = std::min<std::size_t>(safe.size(), 100);
+        while (length > 0 && length < safe.size() && (static_cast<unsigned char>(safe[length]) & 0xc0U) == 0x80U) --length;
+        safe.resize(length);  // whole characters only
         return safe.empty() ? "scene" : safe;
     }
 
+    // Two projects may share a folder; their scenes may not share files.
     void assignFiles()
     {
+        const bool shares = project_.file_.filename() != "project.jet";
+        const std::string prefix = shares ? safeName(project_.file_.stem().string()) + "-" : "";
         std::set<std::string> taken;
         for (const auto& [scene, file] : project_.sceneFiles_) taken.insert(file);
-        for (Scene* scene : project_.scenes()) {
+        for (const Scene* scene : project_.scenes()) {
             if (project_.sceneFiles_.contains(scene)) continue;
-            const std::string base = "scenes/" + safeName(scene->name());
+            const std::string base = "scenes/" + prefix + safeName(scene->name());
             std::string file = base + ".scene";
             for (int i = 2; taken.contains(file); ++i) file = base + " " + std::to_string(i) + ".scene";
             taken.insert(file);
@@ -77,29 +134,14 @@ private:
         return false;
     }
 
-    std::string text() const
+    std::string text(std::string structure) const
     {
-        std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<jet-project version=\"1\"" +
-                          xmlAttribute("name", project_.name_) + ">\n";
-        const auto uses = project_.pluginsUsed();
-        if (!uses.empty()) out += "  <plugins>\n";
-        for (const PluginUse& use : uses)
-            out += "    <plugin" + xmlAttribute("id", use.id) + xmlAttribute("version", use.version) +
-                   xmlAttribute("uses", std::to_string(use.count)) + "/>\n";
-        if (!uses.empty()) out += "  </plugins>\n";
-        appendFilter(out, project_.root_, 1);
-        return out + "</jet-project>\n";
-    }
-
-    void appendFilter(std::string& out, const Filter& filter, int depth) const
-    {
-        const std::string indent(static_cast<std::size_t>(depth) * 2, ' ');
-        out += indent + "<filter" + xmlAttribute("name", filter.name) + ">\n";
-        for (const auto& scene : filter.scenes)
-            out += indent + "  <scene" + xmlAttribute("name", scene->name()) +
-                   xmlAttribute("file", project_.sceneFiles_.at(scene.get())) + "/>\n";
-        for (const auto& child : filter.filters) appendFilter(out, *child, depth + 1);
-        out += indent + "</filter>\n";
+        std::string plugins;
+        for (const PluginUse& use : project_.pluginsUsed())
+            plugins += "    <plugin" + xmlAttribute("id", use.id) + xmlAttribute("version", use.version) +
+                       xmlAttribute("uses", std::to_string(use.count)) + "/>\n";
+        if (!plugins.empty()) structure.insert(structure.find('\n') + 1, "  <plugins>\n" + plugins + "  </plugins>\n");
+        return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + structure;
     }
 
     Project& project_;
@@ -110,7 +152,7 @@ private:
 Result<void> Project::save()
 {
     if (file_.empty()) return Error("the project has no file yet; choose where to save it");
-    if (!isModified() && !sceneFiles_.empty()) return {};
+    if (!isModified() && !savedStructure_.empty()) return {};
     return ProjectWriter(*this).write(false);
 }
 
@@ -118,21 +160,13 @@ Result<void> Project::saveAs(const fs::path& folderOrFile)
 {
     const fs::path old = file_;
     const auto oldScenes = sceneFiles_;
-    const auto oldObsolete = std::exchange(obsoleteFiles_, {});
+    const auto oldObsolete = obsoleteFiles_;
     file_ = folderOrFile.extension() == ".jet" ? folderOrFile : folderOrFile / "project.jet";
-    if (file_.has_parent_path()) {
-        std::error_code problem;
-        fs::create_directories(file_.parent_path(), problem);
+    std::error_code ignored;
+    if (!fs::equivalent(old, file_, ignored)) {
+        sceneFiles_.clear();
+        obsoleteFiles_.clear();  // they belong to the project left behind
     }
-    // Two projects may share a folder; their scenes may not share files.
-    sceneFiles_.clear();
-    if (file_.filename() != "project.jet")
-        for (Scene* scene : scenes()) {
-            std::string base = file_.stem().string() + "-" + scene->name();
-            for (char& c : base)
-                if (c == '/' || c == '\\') c = '_';
-            sceneFiles_[scene] = "scenes/" + base + ".scene";
-        }
     auto written = ProjectWriter(*this).write(true);
     if (!written) {
         file_ = old;

@@ -1,3 +1,4 @@
+#include "effect_states.hpp"
 #include "hasher.hpp"
 #include "scene_state.hpp"
 
@@ -5,7 +6,7 @@ namespace jet {
 
 Scene::Scene(std::string name, EventsCenter& events, Catalog& catalog)
     : name_(std::move(name)), events_(events), catalog_(catalog), items_(std::make_unique<ItemsCenter>(*this, events, catalog)),
-      undo_(std::make_unique<UndoRedoCenter>(*items_))
+      undo_(std::make_unique<UndoRedoCenter>(*items_)), effectStates_(std::make_unique<EffectStates>())
 {
 }
 
@@ -28,6 +29,11 @@ const PropertyTable& Scene::settingsTable()
         real("page-height", "Page height", 0).in("units").range(0, 1e7),
     };
     return table;
+}
+
+void Scene::dropEffectStates(ItemId item) const
+{
+    item ? effectStates_->drop(item) : effectStates_->clear();
 }
 
 Value Scene::setting(std::string_view id) const { return settings_.get(id, settingsTable()); }
@@ -77,6 +83,7 @@ std::uint64_t Scene::hash() const
         h.add(static_cast<std::uint64_t>(item.visible() * 2 + item.locked()));
         h.add(item.path());
         addProperties(item.properties());
+        h.add(static_cast<std::uint64_t>(item.effects().size()));
         for (const EffectInstance& effect : item.effects()) {
             h.add(std::string_view(effect.type));
             h.add(static_cast<std::uint64_t>(effect.visible));

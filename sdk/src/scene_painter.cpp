@@ -1,3 +1,4 @@
+#include "effect_states.hpp"
 #include "scene_state.hpp"
 
 #include <jet/scene_painter.hpp>
@@ -38,7 +39,10 @@ void paintTree(const Scene& scene, const Item& item, const PoseSource* poses, Pa
 
 void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurpose purpose, Painter& painter)
 {
-    for (const EffectInstance& instance : item.effects()) {
+    // Derived data belongs to the path the item was drawn with; a moving body's path is another in each frame.
+    const bool keep = purpose == PaintPurpose::Edit && &path == &item.path();
+    for (std::size_t i = 0; i < item.effects().size(); ++i) {
+        const EffectInstance& instance = item.effects()[i];
         if (!instance.visible) continue;
         const Effect* effect = scene.catalog().effect(instance.type);
         if (!effect) {
@@ -46,8 +50,7 @@ void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurp
             continue;
         }
         const EffectInput input{item, path, instance.properties, effect->properties()};
-        const std::unique_ptr<EffectState> state = purpose == PaintPurpose::Edit ? effect->update(input) : nullptr;
-        effect->paint(input, state.get(), purpose, painter);
+        effect->paint(input, keep ? scene.effectStates().get(*effect, input, i) : nullptr, purpose, painter);
     }
     if (const ItemType* type = itemTypeOf(scene.catalog(), item.type())) {
         type->paint(item, path, purpose, painter);

@@ -10,8 +10,6 @@ namespace jet {
 
 namespace {
 
-constexpr int kMaximumDepth = 1000;
-
 class SceneTextReader {
 public:
     SceneTextReader(XmlSource& source, Scene& scene, Catalog& catalog, std::vector<FormatNote>& notes)
@@ -24,36 +22,50 @@ public:
         const pugi::xml_node root = source_.document.document_element();
         if (std::string_view(root.name()) != "scene")
             source_.fail(root, "a scene file starts with <scene>, this one with <" + std::string(root.name()) + ">");
+        source_.onlyAttributes(root, {"version"});
         if (source_.required(root, "version") != "1")
             source_.fail(root, "this scene has format version " + std::string(root.attribute("version").value()) +
                                    "; this JET reads version 1: open it with a newer JET");
         for (const pugi::xml_node child : root.children()) {
             const std::string_view name = child.name();
             if (name == "settings") {
+                once(child, "<settings>");
                 readSettings(child);
             } else if (name == "materials") {
+                once(child, "<materials>");
                 readMaterials(child);
             } else if (name == "item") {
                 readItem(child, builder_.root(), 1);
             } else {
-                unexpected(child, "a scene holds <settings>, <materials> and <item>");
+                source_.unexpected(child, "a scene holds <settings>, <materials> and <item>");
             }
         }
     }
 
 private:
-    void unexpected(const pugi::xml_node& node, const char* instead)
+    // What stands twice would be lost by half.
+    void once(const pugi::xml_node& node, const std::string& what)
     {
-        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
-            if (std::string_view(node.value()).find_first_not_of(" \t\r\n") == std::string_view::npos) return;
-            source_.fail(node, std::string("stray text here; ") + instead);
-        }
-        source_.fail(node, "<" + std::string(node.name()) + "> is not known here; " + instead);
+        for (pugi::xml_node before = node.previous_sibling(node.name()); before; before = before.previous_sibling(node.name()))
+            source_.fail(node, what + " stands here twice; keep one of them");
+    }
+
+    void setOnce(Properties& properties, const pugi::xml_node& node, std::pair<std::string, Value> property)
+    {
+        if (properties.find(property.first)) source_.fail(node, "the property '" + property.first + "' stands here twice; keep one of them");
+        properties.set(property.first, std::move(property.second));
     }
 
     void readSettings(const pugi::xml_node& node)
     {
-        for (const pugi::xml_node child : node.children("property")) {
+        source_.onlyAttributes(node, {});
+        for (const pugi::xml_node child : node.children()) {
+            if (std::string_view(child.name()) != "property") {
+                source_.unexpected(child, "<settings> holds <property>");
+                continue;
+            }
+            if (scene_.settings().find(child.attribute("id").value()))
+                source_.fail(child, std::string("the property '") + child.attribute("id").value() + "' stands here twice; keep one of them");
             auto [id, value] = readProperty(child, &Scene::settingsTable(), "a scene");
             builder_.setSetting(id, std::move(value));
         }
@@ -69,18 +81,25 @@ private:
 
     void readMaterials(const pugi::xml_node& node)
     {
+        source_.onlyAttributes(node, {});
         MaterialTable table;
         bool first = true;
-        for (const pugi::xml_node child : node.children("material")) {
+        for (const pugi::xml_node child : node.children()) {
+            if (std::string_view(child.name()) == "pair") continue;
+            if (std::string_view(child.name()) != "material") {
+                source_.unexpected(child, "<materials> holds <material> and <pair>");
+                continue;
+            }
+            source_.onlyAttributes(child, {"name"});
             const std::string name(source_.required(child, "name"));
+            if (!first && table.find(name) >= 0)
+                source_.fail(child, "there are two materials called '" + name + "'; rename one");
             if (first) {
                 table = MaterialTable(name);
-                first = false;
-            } else if (table.find(name) >= 0) {
-                source_.fail(child, "there are two materials called '" + name + "'; rename one");
             } else {
                 table.add(name);
             }
+            first = false;
         }
         const auto index = [&](const pugi::xml_node& pair, const char* attribute) {
             const std::string name(source_.required(pair, attribute));
@@ -88,23 +107,26 @@ private:
             if (found < 0) source_.fail(pair, "there is no material '" + name + "'; declare it with <material name=\"...\"/>");
             return static_cast<std::size_t>(found);
         };
-        for (const pugi::xml_node child : node.children("pair"))
+        for (const pugi::xml_node child : node.children("pair")) {
+            source_.onlyAttributes(child, {"a", "b", "friction", "restitution", "collides"});
             table.setPair(index(child, "a"), index(child, "b"),
                           MaterialPair{number(child, "friction", 0), number(child, "restitution", 0),
                                        source_.boolean(child, "collides", true)});
+        }
         builder_.setMaterials(std::move(table));
     }
 
     std::pair<std::string, Value> readProperty(const pugi::xml_node& node, const PropertyTable* table, std::string_view owner)
     {
+        source_.onlyAttributes(node, {"id"});
         std::string id(source_.required(node, "id"));
-        const char* text = node.text().get();
+        std::string text = source_.textOf(node);
         const PropertySpec* spec = table ? table->find(id) : nullptr;
         // Without its plugin nobody knows the kind: the text is kept as it is. A property the plugin does not know is kept
         // too (a newer version of it may have written it).
         if (!spec) {
             if (table) notes_.push_back({"'" + std::string(owner) + "' has no property '" + id + "'; its text is kept", source_.where(node)});
-            return {std::move(id), Value(RawText{text})};
+            return {std::move(id), Value(RawText{std::move(text)})};
         }
         auto value = Value::parse(spec->kind, text);
         if (!value) source_.fail(node, "property '" + id + "': " + value.error().message);
@@ -117,15 +139,15 @@ private:
         const std::string_view text = source_.required(node, "id");
         std::uint64_t id = 0;
         const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
-        if (problem != std::errc() || end != text.data() + text.size() || id == 0 || id >= kRootId.value - 1)
-            source_.fail(node, "id=\"" + std::string(text) + "\" is not a whole number from 1 on");
+        if (problem != std::errc() || end != text.data() + text.size() || id == 0 || id > kMaximumId)
+            source_.fail(node, "id=\"" + std::string(text) + "\" is not a whole number from 1 to " + std::to_string(kMaximumId));
         if (const Item* other = scene_.items().find(ItemId{id}))
             source_.fail(node, "the id " + std::string(text) + " is used twice, here and by '" + other->name() +
                                    "' before; give one of them a number that is free");
         return ItemId{id};
     }
 
-    void readItem(const pugi::xml_node& node, Item& parent, int depth)
+    void readItem(const pugi::xml_node& node, Item& parent, std::size_t depth)
     {
         if (depth > kMaximumDepth) source_.fail(node, "items are nested more than 1000 deep; flatten the groups");
         if (!parent.isContainer() && itemTypeOf(catalog_, parent.type()))
@@ -142,16 +164,16 @@ private:
         for (const pugi::xml_node child : node.children()) {
             const std::string_view name = child.name();
             if (name == "path") {
+                once(child, "<path>");
                 readPath(child, item);
             } else if (name == "property") {
-                auto [key, value] = readProperty(child, table, type);
-                properties.set(key, std::move(value));
+                setOnce(properties, child, readProperty(child, table, type));
             } else if (name == "effect") {
                 readEffect(child, item);
             } else if (name == "item") {
                 readItem(child, item, depth + 1);
             } else {
-                unexpected(child, "an item holds <path>, <property>, <effect> and <item>");
+                source_.unexpected(child, "an item holds <path>, <property>, <effect> and <item>");
             }
         }
         builder_.setProperties(item, std::move(properties));
@@ -159,7 +181,8 @@ private:
 
     void readPath(const pugi::xml_node& node, Item& item)
     {
-        auto path = Path::parse(node.text().get());
+        source_.onlyAttributes(node, {});
+        auto path = Path::parse(source_.textOf(node));
         if (!path) {
             Location where = source_.where(node.first_child() ? node.first_child() : node);
             where.column += std::max(0, path.error().where.column - 1);
@@ -178,11 +201,10 @@ private:
         if (!known) noteMissing(node, ContributionKind::Effect, effect.type);
         for (const pugi::xml_node child : node.children()) {
             if (std::string_view(child.name()) != "property") {
-                unexpected(child, "an effect holds <property>");
+                source_.unexpected(child, "an effect holds <property>");
                 continue;
             }
-            auto [key, value] = readProperty(child, known ? &known->properties() : nullptr, effect.type);
-            effect.properties.set(key, std::move(value));
+            setOnce(effect.properties, child, readProperty(child, known ? &known->properties() : nullptr, effect.type));
         }
         builder_.addEffect(item, std::move(effect));
     }

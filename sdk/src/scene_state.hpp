@@ -8,11 +8,16 @@
 #include <jet/scene.hpp>
 
 #include <unordered_map>
+#include <unordered_set>
 
 namespace jet {
 
 /// The id of every scene's top group; no other item has it.
 inline constexpr ItemId kRootId{~std::uint64_t{0}};
+/// Ids are exact as numbers of JSON and of scripts, too.
+inline constexpr std::uint64_t kMaximumId = (std::uint64_t{1} << 53) - 1;
+/// Items nested deeper are refused, in files and in transactions alike, so that what was made can be saved and read.
+inline constexpr std::size_t kMaximumDepth = 1000;
 
 struct OpenTransaction {
     std::uint64_t serial = 0;
@@ -32,10 +37,16 @@ struct ItemsCenter::Private {
     std::unordered_map<std::uint64_t, Item*> byId;
     std::uint64_t nextId = 1;
     std::vector<ItemId> selection;
+    std::unordered_set<std::uint64_t> selected;  // the same ids, to ask for one
     std::uint64_t serial = 0;
     std::optional<OpenTransaction> open;
 
     Item& get(ItemId id);
+    /// Is it this very item of this scene's tree?
+    bool owns(const Item& item) const;
+    /// Throws Failure for an item of another scene or one that was removed; the second one for the top group, too.
+    void own(const Item& item) const;
+    void ownChangeable(const Item& item) const;
     void enlist(Item& subtree);
     void delist(const Item& subtree);
 
@@ -47,6 +58,28 @@ struct ItemsCenter::Private {
     void revertAll();
     /// Takes back the open transaction's changes after the first `count`.
     void revertTo(std::size_t count);
+    /// Where a call that makes several changes began, to take them back when it fails half-way.
+    class Savepoint {
+    public:
+        explicit Savepoint(Private& d)
+            : d_(d), changes_(d.open->changes.size()), nextId_(d.nextId), selection_(d.selection)
+        {
+        }
+        void restore() const
+        {
+            d_.revertTo(changes_);
+            d_.nextId = nextId_;
+            d_.setSelection(selection_);
+            d_.notifyTouched();
+        }
+
+    private:
+        Private& d_;
+        std::size_t changes_;
+        std::uint64_t nextId_;
+        std::vector<ItemId> selection_;
+    };
+
     void insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item);
     std::unique_ptr<Item> take(ItemId id);
 

@@ -20,8 +20,9 @@ constexpr int kMaximumCatchUp = 4;  // steps made up for at once before the game
 }
 
 struct SimulationCenter::Private {
-    explicit Private(EventsCenter& e) : events(e) {}
+    Private(SimulationCenter& s, EventsCenter& e) : self(s), events(e) {}
 
+    SimulationCenter& self;
     EventsCenter& events;
     const Scene* scene = nullptr;
     std::unique_ptr<Scene> display;
@@ -50,6 +51,7 @@ struct SimulationCenter::Private {
 
     void send(std::function<void(Simulation&)> command)
     {
+        if (state == State::Stopped) return;
         const std::lock_guard lock(mutex);
         commands.push_back(std::move(command));
         wake.notify_one();
@@ -73,15 +75,30 @@ struct SimulationCenter::Private {
         if (!framePending.exchange(true))
             onOwner([this] {
                 framePending = false;
-                events.post(this, SimulationFrameReady{});
+                events.post(&self, SimulationFrameReady{});
             });
     }
 
+    // What an engine throws ends the run, not the program.
     void run(std::unique_ptr<Simulation> simulation)
     {
-        const auto dt = std::chrono::duration<double>(simulation->timeStep());
+        std::string problem;
+        try {
+            play(*simulation);
+        } catch (const std::exception& e) {
+            problem = e.what();
+        } catch (...) {
+            problem = "an unknown exception";
+        }
+        simulation.reset();
+        if (!problem.empty()) onOwner([this, problem] { stopWith("the run was stopped: " + problem); });
+    }
+
+    void play(Simulation& simulation)
+    {
+        const auto dt = std::chrono::duration<double>(simulation.timeStep());
         auto next = Clock::now();
-        publish(*simulation, 0);
+        publish(simulation, 0);
         for (;;) {
             bool stepNow = false;
             {
@@ -98,7 +115,7 @@ struct SimulationCenter::Private {
                 const double pace = speed;
                 const bool playing = !paused;
                 lock.unlock();
-                for (auto& command : waiting) command(*simulation);
+                for (auto& command : waiting) command(simulation);
                 const auto now = Clock::now();
                 if (playing && now >= next) {
                     stepNow = true;
@@ -110,10 +127,10 @@ struct SimulationCenter::Private {
             }
             if (!stepNow) continue;
             const auto before = Clock::now();
-            simulation->step();
-            publish(*simulation, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
-            if (simulation->requestedScene()) {
-                onOwner([this, name = *simulation->requestedScene()] { goTo(name); });
+            simulation.step();
+            publish(simulation, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
+            if (simulation.requestedScene()) {
+                onOwner([this, name = *simulation.requestedScene()] { goTo(name); });
                 return;
             }
         }
@@ -139,21 +156,24 @@ struct SimulationCenter::Private {
     {
         if (state == next) return;
         state = next;
-        events.post(nullptr, SimulationStateChanged{next});
+        events.post(&self, SimulationStateChanged{next});
     }
 
-    // A script asked for another scene.
+    void stopWith(std::string message)
+    {
+        events.post(&self, OutputPrinted{{OutputLine::Kind::Error, std::move(message), {}, 0}});
+        self.stop();
+    }
+
+    // A script asked for another scene. The thread has ended by now.
     void goTo(const std::string& name)
     {
         const Scene* target = options.sceneByName ? options.sceneByName(name) : nullptr;
-        if (!target) {
-            events.post(nullptr, OutputPrinted{{OutputLine::Kind::Error, "there is no scene '" + name + "' to go to", {}, 0}});
-            return;
-        }
+        if (!target) return stopWith("there is no scene '" + name + "' to go to; the run was stopped");
         const auto kept = options;
         end();
-        if (const auto begun = begin(*target, kept); !begun)
-            events.post(nullptr, OutputPrinted{{OutputLine::Kind::Error, begun.error().message, {}, 0}});
+        if (const auto begun = begin(*target, kept); !begun) return stopWith(begun.error().message);
+        setState(State::Playing);
     }
 
     Result<void> begin(const Scene& playing, SimulationOptions with)
@@ -163,9 +183,9 @@ struct SimulationCenter::Private {
         if (!simulation) return simulation.error();
         scene = &playing;
         display = playing.clone(events);
-        for (const OutputLine& line : (*simulation)->output()) events.post(nullptr, OutputPrinted{line});
+        for (const OutputLine& line : (*simulation)->output()) events.post(&self, OutputPrinted{line});
         (*simulation)->setOutputHandler(
-            [this](const OutputLine& line) { onOwner([this, line] { events.post(nullptr, OutputPrinted{line}); }); });
+            [this](const OutputLine& line) { onOwner([this, line] { events.post(&self, OutputPrinted{line}); }); });
         (*simulation)->setPropertyHandler([this](ItemId item, std::string_view property, const Value& value) {
             onOwner([this, item, property = std::string(property), value] {
                 if (const Item* found = display ? display->items().find(item) : nullptr)
@@ -177,15 +197,15 @@ struct SimulationCenter::Private {
     }
 };
 
-SimulationCenter::SimulationCenter(EventsCenter& events) : d_(std::make_unique<Private>(events)) {}
+SimulationCenter::SimulationCenter(EventsCenter& events) : d_(std::make_unique<Private>(*this, events)) {}
 SimulationCenter::~SimulationCenter() { d_->end(); }
 
 Result<void> SimulationCenter::play(const Scene& scene, SimulationOptions options)
 {
     stop();
-    if (auto begun = d_->begin(scene, std::move(options)); !begun) return begun;
-    d_->setState(State::Playing);
-    return {};
+    auto begun = d_->begin(scene, std::move(options));
+    if (begun) d_->setState(State::Playing);
+    return begun;
 }
 
 void SimulationCenter::pause()
@@ -211,6 +231,7 @@ void SimulationCenter::resume()
 
 void SimulationCenter::singleStep()
 {
+    if (d_->state == State::Stopped) return;
     if (d_->state == State::Playing) pause();
     const std::lock_guard lock(d_->mutex);
     ++d_->singleSteps;

@@ -1,4 +1,6 @@
+#include "bits.hpp"
 #include "scene_state.hpp"
+#include "utf8.hpp"
 
 #include <algorithm>
 #include <map>
@@ -16,10 +18,18 @@ void checkPath(const Path& path)
     if (!path.isFinite()) fail("a path with a coordinate that is not a number cannot be stored");
 }
 
+// What a file could not give back is not taken in.
+void checkText(std::string_view property, std::string_view text)
+{
+    if (firstUnstorable(text) != std::string_view::npos)
+        fail("the text of '" + std::string(property) + "' is not UTF-8 or has a NUL in it; it cannot be stored");
+}
+
 void checkValue(const PropertySpec* spec, std::string_view owner, std::string_view property, const Value& value)
 {
     if (!spec) fail("'" + std::string(owner) + "' has no property '" + std::string(property) + "'");
     if (!value.isNone()) spec->check(value).orThrow();
+    if (const auto* text = value.get<std::string>()) checkText(property, *text);
 }
 
 // All of the table's properties: given values where there are some, else the defaults.
@@ -29,6 +39,7 @@ Properties completed(const PropertyTable& table, Properties given, std::string_v
     for (const auto& [id, value] : given.entries()) {
         const PropertySpec* spec = table.find(id);
         checkValue(spec, owner, id, value);
+        if (value.isNone()) continue;
         // an integer given for a real is stored as a real, so that it reads back as the same bytes
         all.set(id, spec->kind == ValueKind::Real ? Value(value.as<double>()) : value);
     }
@@ -61,12 +72,38 @@ ItemsCenter& Transaction::open() const
     return *center_;
 }
 
+namespace {
+
+// Depth below the top group; what the subtree adds to it.
+std::size_t depthOf(const Item& item)
+{
+    std::size_t depth = 0;
+    for (const Item* up = item.parent(); up; up = up->parent()) ++depth;
+    return depth;
+}
+std::size_t heightOf(const Item& item)
+{
+    std::size_t height = 0;
+    for (const auto& child : item.children()) height = std::max(height, heightOf(*child) + 1);
+    return height;
+}
+
+void checkPlace(const Item& parent, std::size_t height)
+{
+    if (!parent.isContainer()) fail("'" + parent.name() + "' is not a group or layer; items go into groups and layers");
+    if (depthOf(parent) + 1 + height > kMaximumDepth)
+        fail("items would be nested more than " + std::to_string(kMaximumDepth) + " deep; flatten the groups");
+}
+
+}  // namespace
+
 const Item& Transaction::add(std::string_view type, const Item& parent, Path path, std::optional<std::size_t> index)
 {
     auto& d = *open().d_;
+    d.own(parent);
     const PropertyTable* table = itemTable(d.catalog, type);
     if (!table) fail(d.catalog.explain(ContributionKind::ItemType, type));
-    if (!parent.isContainer()) fail("'" + parent.name() + "' is not a group or layer; items go into groups and layers");
+    checkPlace(parent, 0);
     checkPath(path);
     auto item = std::make_unique<Item>(ItemId{d.nextId}, type);
     Item::Mutator::setName(*item, itemTypeOf(d.catalog, type)->label() + " " + std::to_string(d.nextId));
@@ -92,23 +129,30 @@ std::unique_ptr<Item> deepCopy(const Item& source, std::uint64_t& nextId, IdMap&
     return copy;
 }
 
-Properties redirected(const Properties& properties, const IdMap& ids)
+Properties redirected(const Properties& properties, const IdMap& ids, bool keepOthers)
 {
     Properties result = properties;
     for (const auto& [id, value] : properties.entries()) {
         const ItemId* reference = value.get<ItemId>();
-        const auto found = reference ? ids.find(reference->value) : ids.end();
-        if (found != ids.end()) result.set(id, found->second);
+        if (!reference) continue;
+        const auto found = ids.find(reference->value);
+        if (found != ids.end()) {
+            result.set(id, found->second);
+        } else if (!keepOthers) {
+            result.set(id, ItemId{});
+        }
     }
     return result;
 }
 
-// References between items of the copied subtree lead to the copies.
-void redirectReferences(Item& copy, const IdMap& ids)
+// References between items of the copied subtree lead to the copies. Others stay within a scene; in another scene their
+// numbers would mean other items, so there they lead nowhere.
+void redirectReferences(Item& copy, const IdMap& ids, bool keepOthers)
 {
-    Item::Mutator::setProperties(copy, redirected(copy.properties(), ids));
-    for (EffectInstance& effect : Item::Mutator::effects(copy)) effect.properties = redirected(effect.properties, ids);
-    for (std::size_t i = 0; i < copy.children().size(); ++i) redirectReferences(*Item::Mutator::child(copy, i), ids);
+    Item::Mutator::setProperties(copy, redirected(copy.properties(), ids, keepOthers));
+    for (EffectInstance& effect : Item::Mutator::effects(copy)) effect.properties = redirected(effect.properties, ids, keepOthers);
+    for (std::size_t i = 0; i < copy.children().size(); ++i)
+        redirectReferences(*Item::Mutator::child(copy, i), ids, keepOthers);
 }
 
 }  // namespace
@@ -116,10 +160,11 @@ void redirectReferences(Item& copy, const IdMap& ids)
 const Item& Transaction::addCopy(const Item& source, const Item& parent, std::optional<std::size_t> index)
 {
     auto& d = *open().d_;
-    if (!parent.isContainer()) fail("'" + parent.name() + "' is not a group or layer; items go into groups and layers");
+    d.own(parent);
+    checkPlace(parent, heightOf(source));
     IdMap ids;
     auto copy = deepCopy(source, d.nextId, ids);
-    redirectReferences(*copy, ids);
+    redirectReferences(*copy, ids, d.owns(source));
     const Item& added = *copy;
     const std::size_t count = parent.children().size();
     d.make(ItemAdded{copy->id(), parent.id(), std::min(index.value_or(count), count), std::move(copy)});
@@ -129,6 +174,7 @@ const Item& Transaction::addCopy(const Item& source, const Item& parent, std::op
 void Transaction::remove(const Item& item)
 {
     auto& d = *open().d_;
+    d.own(item);
     if (!item.parent()) fail("the top group of a scene cannot be removed");
     d.make(ItemRemoved{item.id(), item.parent()->id(), item.index(), nullptr});
 }
@@ -136,9 +182,10 @@ void Transaction::remove(const Item& item)
 void Transaction::move(const Item& item, const Item& newParent, std::size_t index)
 {
     auto& d = *open().d_;
+    d.own(item), d.own(newParent);
     if (!item.parent()) fail("the top group of a scene cannot be moved");
-    if (!newParent.isContainer()) fail("'" + newParent.name() + "' is not a group or layer; items go into groups and layers");
     if (&item == &newParent || item.isAncestorOf(newParent)) fail("'" + item.name() + "' cannot be moved into itself");
+    checkPlace(newParent, heightOf(item));
     const std::size_t room = newParent.children().size() - (item.parent() == &newParent ? 1 : 0);
     const ItemMoved change{item.id(), item.parent()->id(), newParent.id(), item.index(), std::min(index, room)};
     if (change.oldParent == change.newParent && change.oldIndex == change.newIndex) return;
@@ -148,8 +195,10 @@ void Transaction::move(const Item& item, const Item& newParent, std::size_t inde
 void Transaction::set(const Item& item, std::string_view property, Value value)
 {
     auto& d = *open().d_;
+    d.ownChangeable(item);
     if (property == "name") {
         if (!value.get<std::string>()) fail("a name is a text");
+        checkText(property, *value.get<std::string>());
     } else if (isCommon(property)) {
         if (!value.get<bool>()) fail("'" + std::string(property) + "' is true or false");
     } else {
@@ -167,20 +216,39 @@ void Transaction::set(const Item& item, std::string_view property, Value value)
 void Transaction::setPath(const Item& item, Path path)
 {
     auto& d = *open().d_;
+    d.ownChangeable(item);
     checkPath(path);
-    if (item.path() == path) return;
+    if (sameBits(item.path(), path)) return;
     d.make(PathChanged{item.id(), item.path(), std::move(path)});
 }
 
+namespace {
+
+void transformTree(Transaction& edit, const Item& item, const Affine& m)
+{
+    if (!item.path().isEmpty()) edit.setPath(item, item.path().transformed(m));
+    for (const auto& child : item.children()) transformTree(edit, *child, m);
+}
+
+}  // namespace
+
 void Transaction::transform(const Item& item, const Affine& m)
 {
+    auto& d = *open().d_;
+    d.own(item);
     if (m.isIdentity()) return;
-    if (!item.path().isEmpty()) setPath(item, item.path().transformed(m));
-    for (const auto& child : item.children()) transform(*child, m);
+    const ItemsCenter::Private::Savepoint before(d);
+    try {
+        transformTree(*this, item, m);
+    } catch (...) {
+        before.restore();
+        throw;
+    }
 }
 
 void Transaction::transform(const Item& item, const Affine& m, std::span<const std::size_t> segments)
 {
+    open().d_->own(item);
     Path path = item.path();
     for (const std::size_t index : segments)
         if (index >= path.segmentCount()) fail("the path has no segment " + std::to_string(index));
@@ -192,11 +260,15 @@ void Transaction::setType(const Item& item, std::string_view type)
 {
     auto& d = *open().d_;
     const PropertyTable* table = itemTable(d.catalog, type);
+    d.ownChangeable(item);
     if (!table) fail(d.catalog.explain(ContributionKind::ItemType, type));
     if (item.type() == type) return;
-    const Properties old = item.properties();
-    for (const auto& [id, value] : old.entries())
-        if (!table->find(id)) d.make(PropertyChanged{item.id(), id, value, Value()});
+    if (!item.children().empty() && type != GroupItem::type && type != LayerItem::type)
+        fail("'" + item.name() + "' holds other items, so it must stay a group or layer");
+    std::vector<PropertyChanged> dropped;
+    for (const auto& [id, value] : item.properties().entries())
+        if (!table->find(id)) dropped.push_back({item.id(), id, value, Value()});
+    for (PropertyChanged& change : dropped) d.make(std::move(change));
     d.make(TypeChanged{item.id(), item.type(), std::string(type)});
     for (const PropertySpec& spec : table->specs())
         if (!item.properties().find(spec.id)) d.make(PropertyChanged{item.id(), spec.id, Value(), spec.fallback});
@@ -205,17 +277,18 @@ void Transaction::setType(const Item& item, std::string_view type)
 std::size_t Transaction::addEffect(const Item& item, std::string_view effect, Properties properties)
 {
     auto& d = *open().d_;
+    d.ownChangeable(item);
     const Effect* found = d.catalog.effect(effect);
     if (!found) fail(d.catalog.explain(ContributionKind::Effect, effect));
     if (const std::string reason = found->rejects(item); !reason.empty()) fail(reason);
     const std::size_t index = item.effects().size();
-    const std::size_t before = d.open->changes.size();
+    const ItemsCenter::Private::Savepoint before(d);
     d.make(EffectAdded{item.id(), index,
                        EffectInstance{std::string(effect), completed(found->properties(), std::move(properties), effect), true}});
     try {
         found->applied(*this, item);
     } catch (...) {
-        if (isOpen()) d.revertTo(before);
+        if (isOpen()) before.restore();
         throw;
     }
     return index;
@@ -234,12 +307,14 @@ const EffectInstance& effectAt(const Item& item, std::size_t index)
 void Transaction::removeEffect(const Item& item, std::size_t index)
 {
     auto& d = *open().d_;
+    d.ownChangeable(item);
     d.make(EffectRemoved{item.id(), index, effectAt(item, index)});
 }
 
 void Transaction::moveEffect(const Item& item, std::size_t from, std::size_t to)
 {
     auto& d = *open().d_;
+    d.ownChangeable(item);
     effectAt(item, from), effectAt(item, to);
     if (from != to) d.make(EffectMoved{item.id(), from, to});
 }
@@ -247,6 +322,7 @@ void Transaction::moveEffect(const Item& item, std::size_t from, std::size_t to)
 void Transaction::setEffect(const Item& item, std::size_t index, std::string_view property, Value value)
 {
     auto& d = *open().d_;
+    d.ownChangeable(item);
     const EffectInstance& effect = effectAt(item, index);
     Value before;
     if (property == "visible") {
@@ -279,6 +355,7 @@ void Transaction::setScene(std::string_view property, Value value)
 void Transaction::setMaterials(MaterialTable materials)
 {
     auto& d = *open().d_;
+    for (const std::string& name : materials.names()) checkText("material", name);
     if (d.scene.materials() == materials) return;
     d.make(MaterialsChanged{d.scene.materials(), std::move(materials)});
 }

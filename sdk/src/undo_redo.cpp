@@ -1,47 +1,39 @@
 #include "scene_state.hpp"
 
+#include <algorithm>
+
 namespace jet {
 
 namespace {
 
-// Two changes of the same thing become one from the first's "before" to the second's "after". Returns false where that
-// cannot be said of them.
-bool joins(Change& first, Change& second)
+// The same value set again: two such changes are one, from the first's "before" to the second's "after".
+bool joinable(const Change& first, const Change& second)
 {
-    if (first.index() != second.index()) return false;
-    if (auto* a = std::get_if<PathChanged>(&first)) {
-        auto& b = std::get<PathChanged>(second);
-        if (a->item != b.item) return false;
-        a->after = std::move(b.after);
-        return true;
-    }
-    if (auto* a = std::get_if<PropertyChanged>(&first)) {
-        auto& b = std::get<PropertyChanged>(second);
-        if (a->item != b.item || a->property != b.property) return false;
-        a->after = std::move(b.after);
-        return true;
-    }
-    if (auto* a = std::get_if<EffectPropertyChanged>(&first)) {
-        auto& b = std::get<EffectPropertyChanged>(second);
-        if (a->item != b.item || a->index != b.index || a->property != b.property) return false;
-        a->after = std::move(b.after);
-        return true;
-    }
-    if (auto* a = std::get_if<ScenePropertyChanged>(&first)) {
-        auto& b = std::get<ScenePropertyChanged>(second);
-        if (a->property != b.property) return false;
-        a->after = std::move(b.after);
-        return true;
+    if (first.index() != second.index() || changedItem(first) != changedItem(second)) return false;
+    if (std::holds_alternative<PathChanged>(first)) return true;
+    if (const auto* a = std::get_if<PropertyChanged>(&first)) return a->property == std::get<PropertyChanged>(second).property;
+    if (const auto* a = std::get_if<ScenePropertyChanged>(&first))
+        return a->property == std::get<ScenePropertyChanged>(second).property;
+    if (const auto* a = std::get_if<EffectPropertyChanged>(&first)) {
+        const auto& b = std::get<EffectPropertyChanged>(second);
+        return a->index == b.index && a->property == b.property;
     }
     return false;
 }
 
-bool sameTargets(const std::vector<Change>& a, const std::vector<Change>& b)
+void join(Change& first, Change& second)
 {
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        if (a[i].index() != b[i].index() || changedItem(a[i]) != changedItem(b[i])) return false;
-    return true;
+    std::visit(
+        [&]<class C>(C& a) {
+            if constexpr (requires { a.before = std::move(a.after); }) a.after = std::move(std::get<C>(second).after);
+        },
+        first);
+}
+
+// All or nothing: a change of the tree in between could give a place in it another meaning.
+bool joinable(const std::vector<Change>& first, const std::vector<Change>& second)
+{
+    return std::ranges::equal(first, second, [](const Change& a, const Change& b) { return joinable(a, b); });
 }
 
 }  // namespace
@@ -60,13 +52,11 @@ void UndoRedoCenter::Private::push(UndoStep step)
     }
     UndoStep& last = steps.back();
     last.selectionAfter = std::move(step.selectionAfter);
-    if (sameTargets(last.changes, step.changes)) {
-        std::vector<Change> apart;
-        for (std::size_t i = 0; i < step.changes.size(); ++i)
-            if (!joins(last.changes[i], step.changes[i])) apart.push_back(std::move(step.changes[i]));
-        step.changes = std::move(apart);
+    if (joinable(last.changes, step.changes)) {
+        for (std::size_t i = 0; i < step.changes.size(); ++i) join(last.changes[i], step.changes[i]);
+    } else {
+        for (Change& change : step.changes) last.changes.push_back(std::move(change));
     }
-    for (Change& change : step.changes) last.changes.push_back(std::move(change));
 }
 
 UndoRedoCenter::UndoRedoCenter(ItemsCenter& items) : d_(std::make_unique<Private>()) { d_->items = &items; }

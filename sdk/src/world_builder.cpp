@@ -56,7 +56,12 @@ void SceneWorldBuilder::addBody(const Item& item)
             continue;
         }
         const EffectInput input{item, item.path(), instance.properties, effect->properties()};
-        auto built = effect->buildBody(input, own);
+        std::optional<BodyDef> built;
+        try {
+            built = effect->buildBody(input, own);
+        } catch (const Failure& failure) {
+            return warn(item, std::string("its body cannot be built: ") + failure.what() + "; it stays as drawn");
+        }
         if (!built) continue;
         if (def) {
             warn(item, "it has two effects that build a body; the first is used");
@@ -79,9 +84,8 @@ void SceneWorldBuilder::addBody(const Item& item)
             binding.body = world_.addRigidBody(std::get<RigidBodyDef>(*def));
         }
     } catch (const Failure& failure) {
-        return warn(item, std::string("its body cannot be built: ") + failure.what());
+        return warn(item, std::string("its body cannot be built: ") + failure.what() + "; it stays as drawn");
     }
-    binding.restPosition = world_.bodies().position[binding.body];
     bodies.push_back(std::move(binding));
 }
 
@@ -92,6 +96,8 @@ void SceneWorldBuilder::build()
         order_[item.id().value] = place++;
         if (item.is<BodyItem>()) addBody(item);
     });
+    const BodyStates states = world_.bodies();
+    for (BodyBinding& binding : bodies) binding.restPosition = states.position[binding.body];
     scene_.root().walk([&](const Item& item) {
         if (const ItemType* type = itemTypeOf(scene_.catalog(), item.type())) type->build(item, *this);
     });

@@ -1,6 +1,9 @@
 #include "xml_text.hpp"
 
+#include "utf8.hpp"
+
 #include <algorithm>
+#include <charconv>
 
 namespace jet {
 
@@ -57,20 +60,88 @@ Location LineTable::at(const std::string& file, std::ptrdiff_t offset) const
     return {file, static_cast<int>(line - starts_.begin()) + 1, static_cast<int>(offset - *line) + 1};
 }
 
+namespace {
+
+/// Does a character reference such as `&#65;` or `&#x41;` at the start of `text` name a character that can be stored?
+bool isStorableReference(std::string_view text)
+{
+    text.remove_prefix(2);
+    const bool hexadecimal = text.starts_with('x');
+    if (hexadecimal) text.remove_prefix(1);
+    std::uint32_t code = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), code, hexadecimal ? 16 : 10);
+    if (problem == std::errc::invalid_argument || end == text.data() + text.size() || *end != ';') return true;  // plain text
+    const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+    return problem == std::errc() && code != 0 && code <= 0x10ffff && !surrogate;
+}
+
+}  // namespace
+
+Result<void> XmlSource::checkBytes() const
+{
+    if (const std::size_t bad = firstUnstorable(text); bad != std::string::npos)
+        return Error(text[bad] == '\0' ? "there is a NUL byte here; this is not a text file of JET, or it is damaged"
+                                       : "this is not UTF-8; save the file in that encoding",
+                     lines.at(file, static_cast<std::ptrdiff_t>(bad)));
+    // References count outside of CDATA sections only. A file without any, the normal case, is searched once.
+    std::size_t at = text.find("&#");
+    std::size_t section = at == std::string::npos ? at : text.find("<![CDATA[");
+    while (at != std::string::npos) {
+        if (section < at) {
+            const std::size_t end = text.find("]]>", section);
+            if (end == std::string::npos) return {};  // the parser tells
+            if (end > at) at = text.find("&#", end);
+            section = text.find("<![CDATA[", end);
+            continue;
+        }
+        if (!isStorableReference(std::string_view(text).substr(at, 40)))
+            return Error("this reference names no character; remove it", lines.at(file, static_cast<std::ptrdiff_t>(at)));
+        at = text.find("&#", at + 2);
+    }
+    return {};
+}
+
 Result<void> XmlSource::parse()
 {
+    if (const auto fine = checkBytes(); !fine) return fine;
     const unsigned options = pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
     const pugi::xml_parse_result result =
         document.load_buffer_inplace(text.data(), text.size(), options, pugi::encoding_utf8);
-    if (result) return {};
-    return Error(std::string("this is not well-formed XML: ") + result.description() +
-                     "; correct it there or restore the file from a copy",
-                 lines.at(file, result.offset));
+    if (!result)
+        return Error(std::string("this is not well-formed XML: ") + result.description() +
+                         "; correct it there or restore the file from a copy",
+                     lines.at(file, result.offset));
+    const pugi::xml_node root = document.document_element();
+    if (const pugi::xml_node second = root.next_sibling())
+        return Error(std::string("there is a second <") + second.name() + "> after <" + root.name() +
+                         ">; a file holds one of them",
+                     where(second));
+    return {};
+}
+
+std::string XmlSource::textOf(const pugi::xml_node& node) const
+{
+    std::string content;
+    for (const pugi::xml_node child : node.children()) {
+        if (child.type() == pugi::node_element)
+            fail(child, "<" + std::string(node.name()) + "> holds text, no <" + child.name() + ">; write '<' as &lt;");
+        content += child.value();
+    }
+    return content;
 }
 
 void XmlSource::fail(const pugi::xml_node& node, std::string message) const
 {
     throw Failure(Error(std::move(message), where(node)));
+}
+
+void XmlSource::unexpected(const pugi::xml_node& node, const char* instead) const
+{
+    if (node.type() == pugi::node_element) fail(node, "<" + std::string(node.name()) + "> is not known here; " + instead);
+    const std::size_t begin = std::string_view(node.value()).find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return;
+    throw Failure(Error(std::string("stray text here; ") + instead,
+                        lines.at(file, node.offset_debug() + static_cast<std::ptrdiff_t>(begin))));
 }
 
 std::string_view XmlSource::required(const pugi::xml_node& node, const char* attribute) const

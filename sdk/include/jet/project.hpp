@@ -36,7 +36,7 @@ public:
     ~Project();
 
     const std::string& name() const { return name_; }
-    void setName(std::string name) { name_ = std::move(name), structureChanged_ = true; }
+    void setName(std::string name) { name_ = std::move(name); }
     /// The project.jet file; empty for a project that was never saved.
     const std::filesystem::path& file() const { return file_; }
     Filter& root() { return root_; }
@@ -64,6 +64,8 @@ public:
 
 private:
     Project(EventsCenter& events, Catalog& catalog);
+    /// Names, filters and scene files: what project.jet says besides the plugins used.
+    std::string structure() const;
     EventsCenter& events_;
     Catalog& catalog_;
     std::string name_;
@@ -73,7 +75,7 @@ private:
     std::vector<std::filesystem::path> obsoleteFiles_;
     std::map<const Scene*, std::string> sceneFiles_;  ///< relative to the project's folder, '/' between parts
     std::vector<PluginUse> recordedUses_;             ///< as read: kept for plugins that are not installed
-    bool structureChanged_ = true;
+    std::string savedStructure_;
     friend class ProjectReader;
     friend class ProjectWriter;
 };

@@ -8,6 +8,8 @@
 
 namespace jet {
 
+class EffectStates;
+
 /// One scene of a project (thesis §3.4). Owned by its Project or, during play, by the Simulation.
 class JET_API Scene {
 public:
@@ -38,6 +40,11 @@ public:
     /// Hash of everything that is saved. Equal content, equal hash, in every process.
     std::uint64_t hash() const;
 
+    /// What effects keep between paints, by item and revision: update() is called once for each change of an item.
+    EffectStates& effectStates() const { return *effectStates_; }
+    /// Forgets what was kept for an item, or for all (0): their effects will be asked again.
+    void dropEffectStates(ItemId item = {}) const;
+
 private:
     friend class ItemsCenter;
     friend class SceneBuilder;
@@ -49,6 +56,7 @@ private:
     MaterialTable materials_;
     std::unique_ptr<ItemsCenter> items_;
     std::unique_ptr<UndoRedoCenter> undo_;
+    std::unique_ptr<EffectStates> effectStates_;
 };
 
 /// Fills a scene that nobody watches yet: for project loading and deep copies. No events, no undo.

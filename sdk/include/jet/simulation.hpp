@@ -51,12 +51,13 @@ struct GameView {
 
 class JET_API Simulation final : public PoseSource {
 public:
-    /// Copies the scene, builds all bodies and runs the scripts. Fails when there is no physics engine or a body definition is
-    /// impossible; script errors are printed, not fatal.
+    /// Copies the scene, builds all bodies and runs the scripts. Fails when there is no physics engine. A body that cannot be
+    /// built stays as drawn, with a warning; script errors are printed, not fatal.
     static Result<std::unique_ptr<Simulation>> start(const Scene& scene, SimulationOptions options);
     ~Simulation() override;
 
-    /// One fixed time step: scripts' onStep, physics, collisions to scripts (SPEC PH10).
+    /// One fixed time step: scripts' onStep, physics, collisions to scripts (SPEC PH10). What an engine throws passes through:
+    /// the run is over then.
     void step();
     std::uint64_t stepCount() const;
     /// Simulated seconds.
@@ -113,6 +114,7 @@ public:
 
 private:
     Simulation();
+    static Result<std::unique_ptr<Simulation>> prepare(const Scene& scene, SimulationOptions options);
     struct Private;
     std::unique_ptr<Private> d_;
 };
@@ -140,7 +142,8 @@ struct OutputPrinted {
     OutputLine line;
 };
 
-/// Plays one scene at a time on its own thread, in real time (thesis §2.4.3.8 Animator, SPEC EN8).
+/// Plays one scene at a time on its own thread, in real time (thesis §2.4.3.8 Animator, SPEC EN8). An exception inside an
+/// engine ends the run with a message (OutputPrinted).
 class JET_API SimulationCenter {
 public:
     using State = SimulationStateChanged::State;
