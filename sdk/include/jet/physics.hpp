@@ -36,7 +36,7 @@ struct WorldSettings {
     bool findCollisions = true;
     bool resolveCollisions = true;
     std::uint32_t materialCount = 1;
-    std::vector<MaterialPair> materials{MaterialPair{}};  ///< [materialCount x materialCount], row major, symmetric
+    std::vector<MaterialPair> materials = std::vector<MaterialPair>(1);  ///< [materialCount x materialCount], row major, symmetric
     int threads = 1;
 };
 
