@@ -14,12 +14,13 @@ namespace {
 
 const QString kMimeType = QStringLiteral("application/x-jet-items");
 
-/// Front-most first, as in every drawing program: the last child is painted on top.
+/// In tree order, as the thesis shows it (§4.4): the order in which items are painted, the last on top, and scripts
+/// run.
 std::vector<ItemId> childIds(const Item& item)
 {
     std::vector<ItemId> ids;
     ids.reserve(item.children().size());
-    for (auto child = item.children().rbegin(); child != item.children().rend(); ++child) ids.push_back((*child)->id());
+    for (const auto& child : item.children()) ids.push_back(child->id());
     return ids;
 }
 
@@ -354,20 +355,19 @@ bool LayerModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int 
     if (!canDropMimeData(data, action, row, column, parent) || scene_->items().inTransaction()) return false;
     const Item& target = parent.isValid() ? *itemOf(parent) : scene_->root();
     const std::vector<const Item*> items = draggedItems(*data);
-    // Dropped between rows: it goes in front of the row below, which is the child the dragged ones are put after.
+    // Dropped between rows: the dragged ones go before the first row below that is not dragged itself.
     const std::size_t count = target.children().size();
     const Item* below = row >= 0 && static_cast<std::size_t>(row) < count
-                            ? target.children()[count - 1 - static_cast<std::size_t>(row)].get()
+                            ? target.children()[static_cast<std::size_t>(row)].get()
                             : nullptr;
     const auto isDragged = [&](const Item* item) { return std::find(items.begin(), items.end(), item) != items.end(); };
-    while (below && isDragged(below)) below = below->priorSibling();
+    while (below && isDragged(below)) below = below->sibling();
     auto change = scene_->items().begin("Reorder");
     for (const Item* item : items) {
         // Counted without the item itself: it leaves a gap when it comes from before.
-        std::size_t index = row < 0 ? target.children().size() : below ? below->index() + 1 : 0;
+        std::size_t index = below ? below->index() : target.children().size();
         if (item->parent() == &target && item->index() < index) --index;
         change.move(*item, target, index);
-        below = row < 0 ? nullptr : item;
     }
     change.commit();
     return true;

@@ -1,4 +1,4 @@
-// LayerModel: a scene's tree as a Qt model, front-most item first.
+// LayerModel: a scene's tree as a Qt model, in tree order.
 //
 // Qt wants to be told before rows come and go; a scene tells afterwards. So the model keeps a mirror of the ids it has
 // shown, and brings it in line, parent by parent, when a change was committed. The children of an item are mirrored
