@@ -180,7 +180,9 @@ void Path::split(std::size_t contourIndex, std::size_t curveIndex, double t)
     }
     // The n intermediate points stand at i / (n + 1); one at t itself has become the segment.
     const int count = std::max(from.intermediate, 0);
-    const double place = t * (count + 1);
+    const double share =
+        curve.isCornerLine() ? t * t * (3 - 2 * t) : t;  // of a straight side, by length (see polygonized())
+    const double place = share * (count + 1);
     from.intermediate = std::clamp(static_cast<int>(std::ceil(place)) - 1, 0, count);
     middle.intermediate = std::clamp(count - static_cast<int>(std::floor(place)), 0, count - from.intermediate);
     contour.segments.insert(contour.segments.begin() + static_cast<std::ptrdiff_t>(curveIndex) + 1, middle);

@@ -144,7 +144,12 @@ std::vector<Polyline> Path::polygonized() const
             if (i >= contour.curveCount()) break;  // no curve starts at the end of an open contour
             const Cubic curve = contour.curve(i);
             const int count = std::min(contour.segments[i].intermediate, kMaxIntermediate);
-            for (int k = 1; k <= count; ++k) line.points.push_back(curve.at(static_cast<double>(k) / (count + 1)));
+            const bool straight = curve.isCornerLine();  // evenly in t they would crowd at its ends
+            for (int k = 1; k <= count; ++k) {
+                const double share = static_cast<double>(k) / (count + 1);
+                line.points.push_back(straight ? Vec2(curve.p[0] + share * (curve.p[3] - curve.p[0]))
+                                               : curve.at(share));
+            }
         }
     }
     return polylines;

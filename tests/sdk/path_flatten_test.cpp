@@ -81,5 +81,27 @@ TEST(PathFlattenTest, APolygonGoesThroughSegmentsAndIntermediatePointsEvenlyInT)
     EXPECT_EQ(open.segment(0).intermediate, kMaxIntermediate);
 }
 
+TEST(PathFlattenTest, IntermediatePointsOfAStraightSideAreEvenAlongIt)
+{
+    Path path = Path::rectangle(Box({0, 0}, {100, 40}));
+    path.setIntermediate(3);
+    const auto points = path.polygonized()[0].points;
+    ASSERT_EQ(points.size(), 16u);
+    for (std::size_t i = 0; i < 16; ++i)
+        EXPECT_DOUBLE_EQ(distance(points[i], points[(i + 1) % 16]), i / 4 % 2 == 0 ? 25 : 10) << i;
+}
+
+TEST(PathFlattenTest, SplittingAStraightSideKeepsItsIntermediatePointsOnTheirSides)
+{
+    for (const double t : {0.1, 0.3, 0.5, 0.77}) {
+        Path path = Path::line({0, 0}, {100, 0});
+        path.segment(0).intermediate = 9;  // every 10
+        const double at = path.contours()[0].curve(0).at(t).x();
+        path.split(0, 0, t);
+        EXPECT_EQ(path.segment(0).intermediate, static_cast<int>(std::ceil(at / 10)) - 1) << t;
+        EXPECT_EQ(path.segment(1).intermediate, 9 - static_cast<int>(std::floor(at / 10))) << t;
+    }
+}
+
 }  // namespace
 }  // namespace jet

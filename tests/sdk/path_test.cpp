@@ -172,7 +172,9 @@ TEST(PathTest, SplittingSharesOutTheIntermediatePoints)
     };
     // Four points at 0.2, 0.4, 0.6, 0.8; the one at t itself becomes the segment.
     for (const Case& c : {Case{0, 0, 4}, Case{0.1, 0, 4}, Case{0.5, 2, 2}, Case{0.4, 1, 2}, Case{1, 4, 0}}) {
-        Path path = Path::line({0, 0}, {10, 0});
+        Path path;
+        path.moveTo({0, 0});
+        path.cubicTo({3, 5}, {7, 5}, {10, 0});
         path.setIntermediate(4);
         path.split(0, 0, c.t);
         EXPECT_EQ(path.segment(0).intermediate, c.left) << c.t;

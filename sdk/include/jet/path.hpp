@@ -135,7 +135,8 @@ public:
     /// Polylines within `tolerance` (> 0, scene units) of the curves, without repeated points. A curve gives at most
     /// 4096 points, whatever its size.
     std::vector<Polyline> flatten(double tolerance) const;
-    /// Polylines through the segments and their intermediate points, spaced evenly in t (the thesis's border, §3.5.2).
+    /// Polylines through the segments and their intermediate points, spaced evenly in t, on a straight side between
+    /// corners evenly along it (the thesis's border, §3.5.2).
     std::vector<Polyline> polygonized() const;
     /// Sets the count of every segment, limited to 0 … kMaxIntermediate.
     void setIntermediate(int count);
