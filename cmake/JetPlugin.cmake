@@ -1,8 +1,9 @@
-# jet_add_plugin(<name> SOURCES <files>... [LIBRARIES <targets>...] [UI])
+# jet_add_plugin(<name> SOURCES <files>... [LIBRARIES <targets>...] [UI] [OUTPUT_FOLDER <folder>])
 #
 # Builds <name>.so from the sources and puts it with plugin.json (beside the calling CMakeLists.txt) into
 # <build>/lib/jet/plugins/<id>/. The built manifest also names the SDK version and the compiler ABI it was built with, so
 # that the host can refuse a mismatch before any code of the plugin runs. UI: the plugin brings a Qt widget.
+# OUTPUT_FOLDER: puts it into <folder>/<id>/ instead, where only --plugin-path finds it, and does not install it.
 #
 # Targets: <name> (the library) and <name>-objects (its objects, for unit tests).
 
@@ -31,7 +32,7 @@ function(jet_sdk_tags version_variable abi_variable)
 endfunction()
 
 function(jet_add_plugin name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "UI" "" "SOURCES;LIBRARIES")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "UI" "OUTPUT_FOLDER" "SOURCES;LIBRARIES")
     set(manifest "${CMAKE_CURRENT_SOURCE_DIR}/plugin.json")
     if(NOT EXISTS "${manifest}")
         message(FATAL_ERROR "jet_add_plugin(${name}): ${manifest} is missing. Each plugin needs a manifest beside its CMakeLists.txt.")
@@ -51,6 +52,9 @@ function(jet_add_plugin name)
     string(JSON json SET "${json}" builtFor "{\"sdk\": \"${JET_BUILT_SDK_VERSION}\", \"abi\": \"${JET_BUILT_SDK_ABI}\"}")
 
     set(folder "${CMAKE_BINARY_DIR}/lib/jet/plugins/${id}")
+    if(arg_OUTPUT_FOLDER)
+        set(folder "${arg_OUTPUT_FOLDER}/${id}")
+    endif()
     file(MAKE_DIRECTORY "${folder}")
     file(CONFIGURE OUTPUT "${folder}/plugin.json" CONTENT "${json}\n" @ONLY)
 
@@ -78,6 +82,9 @@ function(jet_add_plugin name)
         configure_file("${icon}" "${folder}/${icon_name}" COPYONLY)
     endforeach()
 
+    if(arg_OUTPUT_FOLDER)
+        return()
+    endif()
     include(GNUInstallDirs)
     install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/jet/plugins/${id})
     install(FILES "${folder}/plugin.json" ${icons} DESTINATION ${CMAKE_INSTALL_LIBDIR}/jet/plugins/${id})

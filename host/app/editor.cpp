@@ -35,7 +35,9 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
 {
     const bool display = isSet("DISPLAY") || isSet("WAYLAND_DISPLAY") || isSet("QT_QPA_PLATFORM");
     if (!display) {
-        std::fprintf(stderr, "error: there is no display for the editor; 'jet play PROJECT' plays without one (see 'jet --help')\n");
+        std::fprintf(
+            stderr,
+            "error: there is no display for the editor; 'jet play PROJECT' plays without one (see 'jet --help')\n");
         return kFailed;
     }
     std::error_code ignored;
@@ -51,7 +53,8 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
     }
     Session session(global);
     PluginManager& plugins = session.plugins();
-    const WindowLaunch launch{plugins, session.events(), project, global.safeMode, [&plugins] { return plugins.problems(); }};
+    const WindowLaunch launch{plugins, session.events(), project, global.safeMode,
+                              [&plugins] { return plugins.problems(); }};
     return run(argc, argv, launch);
 }
 

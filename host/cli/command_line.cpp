@@ -4,13 +4,16 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
+
 namespace jet::host {
 
 namespace {
 
 void addGlobal(CLI::App& app, GlobalOptions& global)
 {
-    app.add_option("--plugins", global.set, "Plugin set to use: a .jetset file or the name of a shipped set")->type_name("SET");
+    app.add_option("--plugins", global.set, "Plugin set to use: a .jetset file or the name of a shipped set")
+        ->type_name("SET");
     app.add_option("--plugin-path", global.pluginPath, "Folder of further plugins")->type_name("DIR")->take_all();
     app.add_option("--without", global.without, "As if this plugin were not installed")->type_name("ID")->take_all();
     app.add_flag("--safe-mode", global.safeMode, "Only the plugins that ship with JET");
@@ -32,14 +35,21 @@ void addPlay(CLI::App& app, Parsed& parsed)
     auto* play = app.add_subcommand("play", "Play a project's scene without a window");
     play->add_option("project", o.project, "Project folder or .jet file")->required()->type_name("PROJECT");
     play->add_option("--scene", o.scene, "Scene by name, or by number from 0; the first if not given")->type_name("N");
-    play->add_option("--steps", o.steps, "Number of steps")->type_name("N")->capture_default_str();
-    play->add_option("--dt", o.timeStep, "Seconds a step instead of the scene's")->type_name("S")->check(CLI::PositiveNumber);
+    play->add_option("--steps", o.steps, "Number of steps")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1'000'000'000}));
+    play->add_option("--dt", o.timeStep, "Seconds a step instead of the scene's")
+        ->type_name("S")
+        ->check(CLI::PositiveNumber);
     play->add_option("--input", o.input, "Recorded keys to play back")->type_name("FILE");
     play->add_option("--snapshot", o.snapshot, "Picture of the last step, through the game's camera")->type_name("PNG");
     play->add_option("--state", o.state, "State after the last step, as JSON")->type_name("JSON");
     play->add_option("--record", o.record, "Write what was played, with a hash a second")->type_name("FILE");
     play->add_option("--seed", o.seed, "Seed of the scripts' random numbers")->type_name("N");
-    play->add_option("--threads", o.threads, "Threads the physics engine may use")->type_name("N")->check(CLI::Range(1, 256));
+    play->add_option("--threads", o.threads, "Threads the physics engine may use")
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
     play->add_option("--physics", o.physics, "Physics engine instead of the scene's")->type_name("ID");
     play->add_option("--width", o.width, "Width of the view in pixels")->check(CLI::Range(1, 16384));
     play->add_option("--height", o.height, "Height of the view in pixels")->check(CLI::Range(1, 16384));
@@ -50,13 +60,16 @@ void addConvert(CLI::App& app, Parsed& parsed)
 {
     auto& o = parsed.convert;
     auto* convert = app.add_subcommand(
-        "convert", "Convert files by extension, e.g. drawing.svg picture.png; '*' in OUTPUT stands for each input's name");
+        "convert",
+        "Convert files by extension, e.g. drawing.svg picture.png; '*' in OUTPUT stands for each input's name");
     convert->add_option("files", o.inputs, "INPUT... OUTPUT")->required()->expected(2, -1)->type_name("FILE");
     convert->add_option("--scene", o.scene, "Scene of a project, by name or number")->type_name("N");
     convert->add_option("--width", o.width, "Width of a picture")->type_name("PX")->check(CLI::Range(1, 32768));
     convert->add_option("--height", o.height, "Height of a picture")->type_name("PX")->check(CLI::Range(1, 32768));
-    convert->add_option("--background", o.background, "Background of a picture, e.g. white or #ffffff")->type_name("COLOUR");
-    convert->add_option("--apply", o.effects, "Put an effect on every shape: EFFECT or EFFECT:property=value,...")->take_all();
+    convert->add_option("--background", o.background, "Background of a picture, e.g. white or #ffffff")
+        ->type_name("COLOUR");
+    convert->add_option("--apply", o.effects, "Put an effect on every shape: EFFECT or EFFECT:property=value,...")
+        ->take_all();
     convert->add_option("--set", o.properties, "Set a property on every item that has it: property=value")->take_all();
     convert->callback([&parsed] {
         parsed.convert.output = parsed.convert.inputs.back();
@@ -72,7 +85,8 @@ void addPlugins(CLI::App& app, Parsed& parsed)
     const auto one = [&](const char* name, const char* help, auto action) {
         auto* command = plugins->add_subcommand(name, help);
         command->add_option("id", parsed.plugin, "Plugin id")->required()->type_name("ID");
-        command->callback([&parsed, action] { parsed.run = [&parsed, action](Session& s) { return action(s, parsed.plugin); }; });
+        command->callback(
+            [&parsed, action] { parsed.run = [&parsed, action](Session& s) { return action(s, parsed.plugin); }; });
     };
     one("info", "Everything about one plugin", [](Session& s, const std::string& id) { return pluginInfo(s, id); });
     one("explain", "Which plugin provides a tool, effect, item type or file extension",
@@ -87,12 +101,27 @@ void addProject(CLI::App& app, Parsed& parsed)
     const auto one = [&](const char* name, const char* help, int (*action)(Session&, const std::filesystem::path&)) {
         auto* command = project->add_subcommand(name, help);
         command->add_option("project", parsed.project, "Project folder or .jet file")->required()->type_name("PROJECT");
-        command->callback([&parsed, action] { parsed.run = [&parsed, action](Session& s) { return action(s, parsed.project); }; });
+        command->callback(
+            [&parsed, action] { parsed.run = [&parsed, action](Session& s) { return action(s, parsed.project); }; });
     };
     one("new", "Make an empty project", newProject);
     one("check", "Open a project and tell everything that is wrong with it", checkProject);
     one("info", "What a project holds", projectInfo);
     one("save", "Open and write back in place", saveProject);
+}
+
+int run(const Parsed& parsed, Session& session)
+{
+    try {
+        return parsed.run(session);
+    } catch (const Failure& failure) {
+        session.error(failure.error());
+    } catch (const std::exception& e) {
+        session.error(Error(e.what()));
+    } catch (...) {
+        session.error(Error("an unknown exception"));
+    }
+    return kFailed;
 }
 
 }  // namespace
@@ -115,15 +144,15 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
         return app.exit(problem) == 0 ? kOk : kUsage;
     }
     if (!parsed.run) return std::nullopt;
-    Session session(global);
-    try {
-        return parsed.run(session);
-    } catch (const Failure& failure) {
-        session.error(failure.error());
-    } catch (const std::exception& e) {
-        session.error(Error(e.what()));
+    // A word too many falls through to the editor's argument.
+    if (!project.empty()) {
+        std::fprintf(stderr, "error: '%s' is one argument too many; 'jet --help' shows how to call each command\n",
+                     project.c_str());
+        return kUsage;
     }
-    return kFailed;
+    Session session(global);
+    const int code = run(parsed, session);
+    return session.tellProblems() ? std::max<int>(code, kFailed) : code;
 }
 
 }  // namespace jet::host

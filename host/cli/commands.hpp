@@ -1,4 +1,5 @@
-// The commands of bin/jet (docs/command-line.md). Each returns an exit code and prints errors as file:line:col: error: text.
+// The commands of bin/jet (docs/command-line.md). Each returns an exit code and prints errors as file:line:col: error:
+// text.
 #pragma once
 
 #include "session.hpp"
@@ -41,7 +42,8 @@ int checkProject(Session& session, const std::filesystem::path& project);
 int projectInfo(Session& session, const std::filesystem::path& project);
 int saveProject(Session& session, const std::filesystem::path& project);
 
-/// The command line without a window. Returns the exit code, or nothing when the editor is to be started with `project`.
+/// The command line without a window. Returns the exit code, or nothing when the editor is to be started with
+/// `project`.
 std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, std::filesystem::path& project);
 
 }  // namespace jet::host

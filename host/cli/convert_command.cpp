@@ -1,4 +1,5 @@
-// jet convert INPUT... OUTPUT: any importer to any exporter. A batch goes on after a failure and names the reason of each.
+// jet convert INPUT... OUTPUT: any importer to any exporter. A batch goes on after a failure and names the reason of
+// each.
 #include "project_access.hpp"
 
 #include <jet/effect.hpp>
@@ -6,6 +7,7 @@
 #include <jet/item_type.hpp>
 
 #include <cstdio>
+#include <map>
 
 namespace jet::host {
 
@@ -62,25 +64,42 @@ public:
     }
 
 private:
-    static bool isProject(const fs::path& path) { return extensionOf(path) == "jet" || extensionOf(path).empty() || fs::is_directory(path); }
+    static bool isProject(const fs::path& path)
+    {
+        return extensionOf(path) == "jet" || extensionOf(path).empty() || isFolder(path);
+    }
+    static bool isFolder(const fs::path& path)
+    {
+        std::error_code ignored;
+        return fs::is_directory(path, ignored);
+    }
 
     int runEach(bool pattern)
     {
         std::size_t failed = 0;
+        std::map<fs::path, fs::path> written;  // output -> input
         for (const fs::path& input : options_.inputs) {
             fs::path output = options_.output;
             if (pattern) {
                 std::string name = output.filename().string();
-                const std::string stem = input.has_stem() ? input.stem().string() : input.parent_path().filename().string();
+                const std::string stem =
+                    input.has_stem() ? input.stem().string() : input.parent_path().filename().string();
                 name.replace(name.find('*'), 1, stem);
                 output.replace_filename(name);
             }
             try {
+                const auto [before, isNew] = written.emplace(output, input);
+                if (!isNew)
+                    throw Failure(Error("'" + output.string() + "' was made from '" + before->second.string() +
+                                        "' already; give the inputs names that differ"));
                 convertOne(input, output);
                 if (session_.options().verbose) std::printf("%s -> %s\n", input.c_str(), output.c_str());
             } catch (const Failure& failure) {
                 ++failed;
                 report(input, failure.error());
+            } catch (const std::exception& e) {
+                ++failed;
+                report(input, Error(e.what()));
             }
         }
         if (options_.inputs.size() > 1)
@@ -88,7 +107,7 @@ private:
         return failed == 0 ? kOk : kFailed;
     }
 
-    void report(const fs::path& input, Error error) const
+    void report(const fs::path& input, Error error)
     {
         if (error.where.file.empty()) error.where.file = input.string();
         session_.error(error);
@@ -137,20 +156,21 @@ private:
             project->saveAs(output).orThrow();
             return;
         }
-        const Scene* scene = chooseScene(session_, *project, options_.scene);
-        if (!scene) throw Failure(Error("nothing was converted", Location{input.string(), 0, 0}));
-        exportScene(*scene, output);
+        exportScene(chooseScene(*project, options_.scene), output);
     }
 
     void importInto(Scene& scene, const fs::path& input)
     {
         const std::string extension = extensionOf(input);
         Importer* importer = session_.plugins().importer(extension);
-        if (!importer) throw Failure(Error(session_.plugins().explain(ContributionKind::Importer, extension), Location{input.string(), 0, 0}));
+        if (!importer)
+            throw Failure(Error(session_.plugins().explain(ContributionKind::Importer, extension),
+                                Location{input.string(), 0, 0}));
         const std::string content = readFile(input).orThrow();
         std::vector<FormatNote> notes;
         auto edit = scene.items().begin("Import");
-        ImportRequest request{input, std::as_bytes(std::span(content.data(), content.size())), edit, scene.root(), notes, {}};
+        ImportRequest request{
+            input, std::as_bytes(std::span(content.data(), content.size())), edit, scene.root(), notes, {}};
         const auto read = importer->read(request);
         for (FormatNote& note : notes) {
             if (note.where.file.empty()) note.where.file = input.string();
@@ -215,9 +235,12 @@ private:
     {
         const std::string extension = extensionOf(output);
         Exporter* exporter = session_.plugins().exporter(extension);
-        if (!exporter) throw Failure(Error(session_.plugins().explain(ContributionKind::Exporter, extension), Location{output.string(), 0, 0}));
+        if (!exporter)
+            throw Failure(Error(session_.plugins().explain(ContributionKind::Exporter, extension),
+                                Location{output.string(), 0, 0}));
         std::vector<FormatNote> notes;
-        ExportRequest request{scene, nullptr, std::nullopt, options_.width, options_.height, background_, output, notes, {}};
+        ExportRequest request{scene, nullptr, std::nullopt, options_.width, options_.height, background_, output,
+                              notes, {}};
         auto content = exporter->write(request);
         for (const FormatNote& note : notes) session_.warning(note.message, note.where);
         if (!content) throw Failure(content.error());

@@ -16,7 +16,10 @@ namespace {
 /// One headless run: steps the simulation, follows playScene(), keeps the hashes for --record.
 class Player {
 public:
-    Player(Session& session, Project& project, const PlayOptions& options) : session_(session), project_(project), options_(options) {}
+    Player(Session& session, Project& project, const PlayOptions& options)
+        : session_(session), project_(project), options_(options)
+    {
+    }
 
     Result<void> run(const Scene& scene)
     {
@@ -25,11 +28,13 @@ public:
             if (!input) return input.error();
             input_ = std::move(*input);
         }
+        if (const auto possible = findExporter(); !possible) return possible;
         if (const auto begun = begin(scene); !begun) return begun;
         const auto before = std::chrono::steady_clock::now();
         for (std::uint64_t step = 0; step < options_.steps; ++step) {
             input_.apply(*simulation_, step);
             simulation_->step();
+            if (auto problem = session_.problem()) return *problem;
             if (step % 60 == 59) hashes_.push_back({{"step", step + 1}, {"hash", hashText(simulation_->hash())}});
             if (!simulation_->requestedScene()) continue;
             const std::string wanted = *simulation_->requestedScene();
@@ -44,13 +49,14 @@ public:
     Result<void> writeFiles()
     {
         if (!options_.state.empty())
-            if (const auto written = writeFileAtomically(options_.state, simulation_->stateJson()); !written) return written;
+            if (const auto written = writeFileAtomically(options_.state, simulation_->stateJson()); !written)
+                return written;
         if (!options_.record.empty())
             if (const auto written = writeFileAtomically(options_.record, record()); !written) return written;
         return options_.snapshot.empty() ? Result<void>() : snapshot();
     }
 
-    void report() const
+    void report()
     {
         const double simulated = simulation_->time();
         if (session_.options().json) {
@@ -58,8 +64,9 @@ public:
             return;
         }
         std::printf("played '%s': %llu steps, %.2f s simulated in %.3f s (%.0f × real time), hash %s\n",
-                    simulation_->scene().name().c_str(), static_cast<unsigned long long>(simulation_->stepCount()), simulated,
-                    seconds_, seconds_ > 0 ? simulated / seconds_ : 0, hashText(simulation_->hash()).c_str());
+                    simulation_->scene().name().c_str(), static_cast<unsigned long long>(simulation_->stepCount()),
+                    simulated, seconds_, seconds_ > 0 ? simulated / seconds_ : 0,
+                    hashText(simulation_->hash()).c_str());
     }
 
 private:
@@ -75,13 +82,14 @@ private:
         auto started = Simulation::start(scene, options);
         if (!started) return started.error();
         simulation_ = std::move(*started);
+        if (auto problem = session_.problem()) return *problem;
         for (const OutputLine& line : simulation_->output()) print(line);
         simulation_->setOutputHandler([this](const OutputLine& line) { print(line); });
         return {};
     }
 
     // The game's own words go to stdout, troubles to stderr.
-    void print(const OutputLine& line) const
+    void print(const OutputLine& line)
     {
         if (line.kind == OutputLine::Kind::Text) {
             if (!session_.options().json) std::printf("%s\n", line.text.c_str());
@@ -89,20 +97,36 @@ private:
             const Item* script = simulation_ ? simulation_->scene().items().find(line.script) : nullptr;
             Location where;
             if (script) where = {script->name(), line.line, 0};
-            line.kind == OutputLine::Kind::Error ? session_.error(Error(line.text, where)) : session_.warning(line.text, where);
+            line.kind == OutputLine::Kind::Error ? session_.error(Error(line.text, where))
+                                                 : session_.warning(line.text, where);
         }
+    }
+
+    // Asked before the run: who cannot get the picture should not wait for it.
+    Result<void> findExporter()
+    {
+        if (options_.snapshot.empty()) return {};
+        const std::string extension = extensionOf(options_.snapshot);
+        exporter_ = session_.plugins().exporter(extension);
+        if (exporter_) return {};
+        return Error(session_.plugins().explain(ContributionKind::Exporter, extension),
+                     Location{options_.snapshot.string(), 0, 0});
     }
 
     Result<void> snapshot()
     {
-        const std::string extension = extensionOf(options_.snapshot);
-        Exporter* exporter = session_.plugins().exporter(extension);
-        if (!exporter) return Error(session_.plugins().explain(ContributionKind::Exporter, extension));
         std::vector<FormatNote> notes;
         const Color background = simulation_->scene().setting("background").as<Color>();
-        ExportRequest request{simulation_->scene(), simulation_.get(), simulation_->view().view, options_.width,
-                              options_.height, background, options_.snapshot, notes, {}};
-        auto content = exporter->write(request);
+        ExportRequest request{simulation_->scene(),
+                              simulation_.get(),
+                              simulation_->view().view,
+                              options_.width,
+                              options_.height,
+                              background,
+                              options_.snapshot,
+                              notes,
+                              {}};
+        auto content = exporter_->write(request);
         if (!content) return content.error();
         return writeFileAtomically(options_.snapshot, std::span<const std::byte>(*content));
     }
@@ -111,7 +135,8 @@ private:
     {
         using Json = nlohmann::ordered_json;
         Json events = Json::array();
-        for (const RecordedEvent& e : input_.events()) events.push_back({{"step", e.step}, {"key", e.key}, {"down", e.down}});
+        for (const RecordedEvent& e : input_.events())
+            events.push_back({{"step", e.step}, {"key", e.key}, {"down", e.down}});
         return Json{{"steps", simulation_->stepCount()},
                     {"timeStep", simulation_->timeStep()},
                     {"seed", options_.seed},
@@ -127,6 +152,7 @@ private:
     const PlayOptions& options_;
     RecordedInput input_;
     std::unique_ptr<Simulation> simulation_;
+    Exporter* exporter_ = nullptr;
     nlohmann::ordered_json hashes_ = nlohmann::ordered_json::array();
     double seconds_ = 0;
 };
@@ -137,10 +163,8 @@ int play(Session& session, const PlayOptions& options)
 {
     const auto project = openProject(session, options.project);
     if (!project) return kFailed;
-    const Scene* scene = chooseScene(session, *project, options.scene);
-    if (!scene) return kFailed;
     Player player(session, *project, options);
-    if (const auto played = player.run(*scene); !played) {
+    if (const auto played = player.run(chooseScene(*project, options.scene)); !played) {
         session.error(played.error());
         return kFailed;
     }

@@ -34,6 +34,8 @@ Json describe(const Plugin& plugin)
     return json;
 }
 
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
+
 }  // namespace
 
 int listPlugins(Session& session)
@@ -42,7 +44,7 @@ int listPlugins(Session& session)
     if (session.options().json) {
         Json list = Json::array();
         for (const Plugin* plugin : all) list.push_back(describe(*plugin));
-        std::printf("%s\n", list.dump(2).c_str());
+        std::printf("%s\n", dump(list).c_str());
         return kOk;
     }
     std::size_t width = 0;
@@ -65,8 +67,10 @@ int pluginInfo(Session& session, const std::string& id)
     }
     // Whether it really runs is part of what one wants to know: load it.
     if (plugin->state == PluginState::Resolved) (void)plugins.load(id);
+    if (plugin->state == PluginState::Faulted)
+        session.error(Error("the plugin " + plugin->title() + " cannot be used: " + plugin->reason));
     if (session.options().json) {
-        std::printf("%s\n", describe(*plugin).dump(2).c_str());
+        std::printf("%s\n", dump(describe(*plugin)).c_str());
         return plugin->state == PluginState::Faulted ? kFailed : kOk;
     }
     std::printf("%s\n  %s\n  state    %s%s%s\n  folder   %s\n  licence  %s\n", plugin->title().c_str(),
@@ -102,8 +106,8 @@ int explainContribution(Session& session, const std::string& id)
                     plugin->reason.empty() ? "" : ", ", plugin->reason.c_str());
         return kOk;
     }
-    session.error(Error("no installed plugin provides a tool, effect, item type, format, panel or engine called '" + name +
-                        "'; 'jet plugins list' shows what is installed"));
+    session.error(Error("no installed plugin provides a tool, effect, item type, format, panel or engine called '" +
+                        name + "'; 'jet plugins list' shows what is installed"));
     return kFailed;
 }
 

@@ -20,22 +20,42 @@ std::unique_ptr<Project> openProject(Session& session, const fs::path& path)
     return std::move(*project);
 }
 
-Scene* chooseScene(Session& session, Project& project, const std::string& wanted)
+Scene& chooseScene(Project& project, const std::string& wanted)
 {
     const auto scenes = project.scenes();
-    if (scenes.empty()) {
-        session.error(Error("the project has no scene; add one in the editor", Location{project.file().string(), 0, 0}));
-        return nullptr;
-    }
-    if (wanted.empty()) return scenes.front();
-    if (Scene* named = project.scene(wanted)) return named;
+    const Location where{project.file().string(), 0, 0};
+    if (scenes.empty()) throw Failure(Error("the project has no scene; add one in the editor", where));
+    if (wanted.empty()) return *scenes.front();
+    if (Scene* named = project.scene(wanted)) return *named;
     const bool number = wanted.find_first_not_of("0123456789") == std::string::npos && wanted.size() < 10;
-    if (number && std::stoul(wanted) < scenes.size()) return scenes[std::stoul(wanted)];
+    if (number && std::stoul(wanted) < scenes.size()) return *scenes[std::stoul(wanted)];
     std::string known;
     for (const Scene* scene : scenes) known += (known.empty() ? "'" : ", '") + scene->name() + "'";
-    session.error(Error("there is no scene '" + wanted + "'; the project has " + known));
-    return nullptr;
+    throw Failure(Error("there is no scene '" + wanted + "'; the project has " + known, where));
 }
+
+namespace {
+
+// "games/ball/" -> "ball"
+std::string projectName(const fs::path& folder)
+{
+    std::error_code ignored;
+    fs::path whole = fs::weakly_canonical(fs::absolute(folder, ignored), ignored);
+    if (!whole.has_filename()) whole = whole.parent_path();
+    const std::string name = whole.extension() == ".jet" ? whole.stem().string() : whole.filename().string();
+    return name.empty() ? "Project" : name;
+}
+
+// For a name that is not UTF-8, as file names may be.
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
+
+Json noteJson(const FormatNote& note)
+{
+    return {
+        {"message", note.message}, {"file", note.where.file}, {"line", note.where.line}, {"column", note.where.column}};
+}
+
+}  // namespace
 
 int newProject(Session& session, const fs::path& folder)
 {
@@ -44,7 +64,7 @@ int newProject(Session& session, const fs::path& folder)
         session.error(Error("there is a project here already; choose another folder", Location{folder.string(), 0, 0}));
         return kFailed;
     }
-    auto project = Project::create(folder.stem().string(), session.events(), session.plugins());
+    auto project = Project::create(projectName(folder), session.events(), session.plugins());
     if (const auto saved = project->saveAs(folder); !saved) {
         session.error(saved.error());
         return kFailed;
@@ -55,18 +75,27 @@ int newProject(Session& session, const fs::path& folder)
 
 int checkProject(Session& session, const fs::path& path)
 {
-    const auto project = openProject(session, path);
-    if (!project) return kFailed;
+    auto opened = Project::load(path, session.events(), session.plugins());
+    if (!opened) {
+        const Error& error = opened.error();
+        session.error(error);
+        if (session.options().json)
+            std::printf(
+                "%s\n",
+                dump({{"ok", false}, {"errors", Json::array({noteJson({error.message, error.where})})}}).c_str());
+        return kFailed;
+    }
+    const std::unique_ptr<Project> project = std::move(*opened);
+    for (const FormatNote& note : project->notes()) session.warning(note.message, note.where);
     std::size_t items = 0;
     for (const Scene* scene : project->scenes()) items += scene->items().itemCount();
     if (session.options().json) {
         Json notes = Json::array();
-        for (const FormatNote& note : project->notes())
-            notes.push_back({{"message", note.message}, {"file", note.where.file}, {"line", note.where.line}, {"column", note.where.column}});
-        std::printf("%s\n", Json{{"ok", true}, {"notes", notes}}.dump(2).c_str());
+        for (const FormatNote& note : project->notes()) notes.push_back(noteJson(note));
+        std::printf("%s\n", dump({{"ok", true}, {"notes", notes}}).c_str());
     } else {
-        std::printf("%s: fine: %zu scenes, %zu items, %zu warnings\n", project->file().c_str(), project->scenes().size(), items,
-                    project->notes().size());
+        std::printf("%s: fine: %zu scenes, %zu items, %zu warnings\n", project->file().c_str(),
+                    project->scenes().size(), items, project->notes().size());
     }
     return kOk;
 }
@@ -75,32 +104,40 @@ int projectInfo(Session& session, const fs::path& path)
 {
     const auto project = openProject(session, path);
     if (!project) return kFailed;
-    Json json{{"name", project->name()}, {"file", project->file().string()}, {"hash", hashText(project->hash())},
-              {"scenes", Json::array()}, {"plugins", Json::array()}};
+    Json json{{"name", project->name()},
+              {"file", project->file().string()},
+              {"hash", hashText(project->hash())},
+              {"scenes", Json::array()},
+              {"plugins", Json::array()}};
     for (const Scene* scene : project->scenes()) {
         std::map<std::string, int> types;
         scene->root().walk([&](const Item& item) {
             if (item.parent()) ++types[item.type()];
         });
         const Box box = scene->root().bounds();
-        Json entry{{"name", scene->name()}, {"items", scene->items().itemCount()}, {"types", types}, {"hash", hashText(scene->hash())}};
+        Json entry{{"name", scene->name()},
+                   {"items", scene->items().itemCount()},
+                   {"types", types},
+                   {"hash", hashText(scene->hash())}};
         if (!box.isNull()) entry["bounds"] = {box.min.x(), box.min.y(), box.max.x(), box.max.y()};
         json["scenes"].push_back(std::move(entry));
     }
     for (const PluginUse& use : project->pluginsUsed())
         json["plugins"].push_back({{"id", use.id}, {"version", use.version}, {"uses", use.count}});
     if (session.options().json) {
-        std::printf("%s\n", json.dump(2).c_str());
+        std::printf("%s\n", dump(json).c_str());
         return kOk;
     }
-    std::printf("%s (%s)\n  hash %s\n", project->name().c_str(), project->file().c_str(), hashText(project->hash()).c_str());
+    std::printf("%s (%s)\n  hash %s\n", project->name().c_str(), project->file().c_str(),
+                hashText(project->hash()).c_str());
     for (const Json& scene : json["scenes"]) {
         std::printf("  scene '%s': %d items\n", scene["name"].get<std::string>().c_str(), scene["items"].get<int>());
-        for (const auto& [type, count] : scene["types"].items()) std::printf("    %6d %s\n", count.get<int>(), type.c_str());
+        for (const auto& [type, count] : scene["types"].items())
+            std::printf("    %6d %s\n", count.get<int>(), type.c_str());
     }
     for (const Json& use : json["plugins"])
-        std::printf("  uses %s %s (%d)\n", use["id"].get<std::string>().c_str(), use["version"].get<std::string>().c_str(),
-                    use["uses"].get<int>());
+        std::printf("  uses %s %s (%d)\n", use["id"].get<std::string>().c_str(),
+                    use["version"].get<std::string>().c_str(), use["uses"].get<int>());
     return kOk;
 }
 

@@ -17,9 +17,12 @@ Result<RecordedInput> RecordedInput::read(const std::filesystem::path& file)
         json = nlohmann::json::parse(*text, nullptr, true, true);
     } catch (const nlohmann::json::parse_error& e) {
         const auto end = text->begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text->size()));
-        return Error("the recorded input is not valid JSON", Location{file.string(), 1 + static_cast<int>(std::count(text->begin(), end, '\n')), 0});
+        return Error("the recorded input is not valid JSON",
+                     Location{file.string(), 1 + static_cast<int>(std::count(text->begin(), end, '\n')), 0});
     }
-    const auto wrong = [&](const std::string& what) { return Error("recorded input: " + what, Location{file.string(), 0, 0}); };
+    const auto wrong = [&](const std::string& what) {
+        return Error("recorded input: " + what, Location{file.string(), 0, 0});
+    };
     if (!json.is_object() || !json.contains("events") || !json["events"].is_array())
         return wrong("it must be { \"events\": [ { \"step\": 0, \"key\": \"D\", \"down\": true } ] }");
     RecordedInput input;
@@ -27,11 +30,14 @@ Result<RecordedInput> RecordedInput::read(const std::filesystem::path& file)
         const std::string place = "event number " + std::to_string(input.events_.size() + 1);
         if (!event.is_object() || !event.contains("step") || !event["step"].is_number_unsigned())
             return wrong(place + " needs \"step\", a whole number from 0 on");
-        if (!event.contains("key") || !event["key"].is_string()) return wrong(place + " needs \"key\", a name such as \"D\"");
-        if (!event.contains("down") || !event["down"].is_boolean()) return wrong(place + " needs \"down\", true or false");
+        if (!event.contains("key") || !event["key"].is_string())
+            return wrong(place + " needs \"key\", a name such as \"D\"");
+        if (!event.contains("down") || !event["down"].is_boolean())
+            return wrong(place + " needs \"down\", true or false");
         input.events_.push_back({event["step"], event["key"], event["down"]});
     }
-    std::stable_sort(input.events_.begin(), input.events_.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
+    std::stable_sort(input.events_.begin(), input.events_.end(),
+                     [](const auto& a, const auto& b) { return a.step < b.step; });
     return input;
 }
 

@@ -43,7 +43,8 @@ std::set<std::string> readDisabledPlugins()
 {
     std::set<std::string> ids;
     const fs::path file = configFolder() / "disabled-plugins";
-    if (!fs::exists(file)) return ids;
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return ids;
     const auto text = readFile(file);
     std::istringstream lines(text ? *text : std::string());
     for (std::string line; std::getline(lines, line);)
@@ -68,6 +69,11 @@ PluginManager& Session::plugins()
     PluginOptions options;
     options.builtIn = builtInPluginFolder();
     options.searchPath = options_.pluginPath;
+    std::error_code ignored;
+    for (const fs::path& folder : options.searchPath)
+        if (!fs::is_directory(folder, ignored))
+            throw Failure(
+                Error("there is no such folder of plugins; check --plugin-path", Location{folder.string(), 0, 0}));
     if (const fs::path user = userPluginFolder(); !user.empty()) options.searchPath.push_back(user);
     options.searchPath.push_back(options.builtIn);
     options.without = {options_.without.begin(), options_.without.end()};
@@ -75,18 +81,46 @@ PluginManager& Session::plugins()
     options.safeMode = options_.safeMode;
     if (!options_.set.empty()) options.only = readSet(options_.set);
     plugins_ = std::make_unique<PluginManager>(std::move(options));
-    plugins_->setProblemHandler([this](const PluginProblem& problem) { error(Error(problem.message)); });
+    plugins_->setProblemHandler([this](const PluginProblem& problem) {
+        const std::lock_guard lock(mutex_);
+        problems_.push_back(problem);
+    });
     plugins_->scan();
     return *plugins_;
 }
 
-void Session::error(const Error& error) const { std::fprintf(stderr, "%s\n", error.text().c_str()); }
+void Session::tell(const std::string& text)
+{
+    std::fprintf(stderr, "%s\n", text.c_str());
+    const std::lock_guard lock(mutex_);
+    std::erase_if(problems_,
+                  [&](const PluginProblem& problem) { return text.find(problem.reason) != std::string::npos; });
+}
 
-void Session::warning(const std::string& message, const Location& where) const
+void Session::error(const Error& error) { tell(error.text()); }
+
+void Session::warning(const std::string& message, const Location& where)
 {
     std::string text = Error(message, where).text();
     if (const auto at = text.find("error: "); at != std::string::npos) text.replace(at, 7, "warning: ");
-    std::fprintf(stderr, "%s\n", text.c_str());
+    tell(text);
+}
+
+std::optional<Error> Session::problem() const
+{
+    const std::lock_guard lock(mutex_);
+    if (problems_.empty()) return std::nullopt;
+    return Error(problems_.front().message);
+}
+
+bool Session::tellProblems()
+{
+    bool any = false;
+    while (const auto waiting = problem()) {
+        error(*waiting);
+        any = true;
+    }
+    return any;
 }
 
 std::string hashText(std::uint64_t hash)

@@ -8,6 +8,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,12 +40,21 @@ public:
     /// Scans the plugins on first use. Throws Failure when the plugin set cannot be read.
     PluginManager& plugins();
 
-    void error(const Error& error) const;
-    void warning(const std::string& message, const Location& where = {}) const;
+    void error(const Error& error);
+    void warning(const std::string& message, const Location& where = {});
+    /// What failed inside plugins and was not yet told: one failure is one message, so it waits for the command that
+    /// may tell it with more context. Returns whether there was any.
+    bool tellProblems();
+    /// The first such failure, if any.
+    std::optional<Error> problem() const;
 
 private:
+    void tell(const std::string& text);
+
     GlobalOptions options_;
     EventsCenter events_;
+    mutable std::mutex mutex_;             // guards the problems: plugins fail on any thread
+    std::vector<PluginProblem> problems_;  // not yet told
     std::unique_ptr<PluginManager> plugins_;
 };
 

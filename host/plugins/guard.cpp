@@ -2,20 +2,31 @@
 
 namespace jet::host {
 
-void Guard::fault(Plugin& plugin, const char* callback, std::exception_ptr problem)
+std::string reasonOf(std::exception_ptr problem)
 {
-    std::string reason = "an unknown exception";
     try {
         std::rethrow_exception(problem);
     } catch (const std::exception& e) {
-        reason = e.what();
+        return e.what();
     } catch (...) {
+        return "an unknown exception";
     }
-    plugin.reason = std::string(callback) + " failed: " + reason;
-    plugin.state = PluginState::Faulted;
+}
+
+void Guard::fault(Plugin& plugin, const char* callback, std::exception_ptr problem)
+{
+    const std::string reason = reasonOf(problem);
+    {
+        const std::lock_guard lock(mutex_);
+        if (plugin.state == PluginState::Faulted) return;
+        plugin.reason = std::string(callback) + " failed: " + reason;
+        plugin.state = PluginState::Faulted;  // after the reason: who sees the state may read it
+    }
     if (onProblem)
-        onProblem({plugin.manifest.id, callback,
-                   "The plugin " + plugin.title() + " failed in " + callback + " and was switched off: " + reason});
+        onProblem(
+            {plugin.manifest.id, callback,
+             "the plugin " + plugin.title() + " was switched off: " + std::string(callback) + " failed: " + reason,
+             plugin.reason});
 }
 
 }  // namespace jet::host

@@ -1,11 +1,12 @@
-// The guard around every call into a plugin: an exception becomes a message and a neutral result, the plugin is faulted, the
-// editor goes on. Only guarded objects leave the plugin manager, so no caller can forget it.
+// The guard around every call into a plugin: an exception becomes a message and a neutral result, the plugin is
+// faulted, the editor goes on. Only guarded objects leave the plugin manager, so no caller can forget it.
 #pragma once
 
 #include "plugin.hpp"
 
 #include <exception>
 #include <functional>
+#include <mutex>
 #include <string>
 
 namespace jet::host {
@@ -15,6 +16,7 @@ struct PluginProblem {
     std::string plugin;    ///< id
     std::string callback;  ///< e.g. "Tool::press"
     std::string message;   ///< a sentence with plugin, callback and reason
+    std::string reason;    ///< the same as Plugin::reason
 };
 
 /// Shared by the manager and all guarded objects.
@@ -22,7 +24,8 @@ class Guard {
 public:
     std::function<void(const PluginProblem&)> onProblem;  ///< [thread of the failing call]
 
-    /// Calls fn; on an exception faults the plugin, reports, and returns `neutral`. A faulted plugin is not called at all.
+    /// Calls fn; on an exception faults the plugin, reports, and returns `neutral`. A faulted plugin is not called at
+    /// all.
     template <class Fn, class T>
     T call(Plugin& plugin, const char* callback, Fn&& fn, T neutral)
     {
@@ -47,7 +50,14 @@ public:
             false);
     }
 
+    /// The first fault of a plugin is told; later ones are consequences. [any thread]
     void fault(Plugin& plugin, const char* callback, std::exception_ptr problem);
+
+private:
+    std::mutex mutex_;  // guards the reason of plugins that are being faulted
 };
+
+/// What the exception says. Call inside or outside of its catch block.
+std::string reasonOf(std::exception_ptr problem);
 
 }  // namespace jet::host

@@ -12,10 +12,26 @@ struct Guarded {
     T inner;
 };
 
+const PropertyTable& emptyTable()
+{
+    static const PropertyTable none;
+    return none;
+}
+
+/// A table is the same for the life of its object, so it is asked for once.
+template <class Fn>
+const PropertyTable& tableOf(Guard& guard, Plugin& plugin, const char* callback, Fn&& fn)
+{
+    return *guard.call(
+        plugin, callback, [&] { return &fn(); }, &emptyTable());
+}
+
 class GuardedTool final : public Tool {
 public:
     GuardedTool(Guard& guard, Plugin& plugin, std::unique_ptr<Tool> tool, ToolHost& host)
-        : Tool(host), g_{guard, plugin, std::move(tool)}
+        : Tool(host), g_{guard, plugin, std::move(tool)},
+          options_(
+              tableOf(guard, plugin, "Tool::options", [&]() -> const PropertyTable& { return g_.inner->options(); }))
     {
     }
     ~GuardedTool() override
@@ -23,26 +39,56 @@ public:
         g_.guard.run(g_.plugin, "Tool::~Tool", [&] { g_.inner.reset(); });
     }
 
-    void activate() override { run("Tool::activate", [&] { g_.inner->activate(); }); }
+    void activate() override
+    {
+        run("Tool::activate", [&] { g_.inner->activate(); });
+    }
     void deactivate() override
     {
         run("Tool::deactivate", [&] { g_.inner->deactivate(); });
         host().items().abandon();  // a tool that is put away holds no transaction
     }
-    void press(const PointerEvent& e) override { run("Tool::press", [&] { g_.inner->press(e); }); }
-    void drag(const PointerEvent& e) override { run("Tool::drag", [&] { g_.inner->drag(e); }); }
-    void release(const PointerEvent& e) override { run("Tool::release", [&] { g_.inner->release(e); }); }
-    void move(const PointerEvent& e) override { run("Tool::move", [&] { g_.inner->move(e); }); }
-    void doubleClick(const PointerEvent& e) override { run("Tool::doubleClick", [&] { g_.inner->doubleClick(e); }); }
-    bool wheel(const WheelEvent& e) override { return ask("Tool::wheel", [&] { return g_.inner->wheel(e); }); }
-    bool keyPress(const KeyEvent& e) override { return ask("Tool::keyPress", [&] { return g_.inner->keyPress(e); }); }
-    bool keyRelease(const KeyEvent& e) override { return ask("Tool::keyRelease", [&] { return g_.inner->keyRelease(e); }); }
-    bool cancel() override { return ask("Tool::cancel", [&] { return g_.inner->cancel(); }); }
+    void press(const PointerEvent& e) override
+    {
+        run("Tool::press", [&] { g_.inner->press(e); });
+    }
+    void drag(const PointerEvent& e) override
+    {
+        run("Tool::drag", [&] { g_.inner->drag(e); });
+    }
+    void release(const PointerEvent& e) override
+    {
+        run("Tool::release", [&] { g_.inner->release(e); });
+    }
+    void move(const PointerEvent& e) override
+    {
+        run("Tool::move", [&] { g_.inner->move(e); });
+    }
+    void doubleClick(const PointerEvent& e) override
+    {
+        run("Tool::doubleClick", [&] { g_.inner->doubleClick(e); });
+    }
+    bool wheel(const WheelEvent& e) override
+    {
+        return ask("Tool::wheel", [&] { return g_.inner->wheel(e); });
+    }
+    bool keyPress(const KeyEvent& e) override
+    {
+        return ask("Tool::keyPress", [&] { return g_.inner->keyPress(e); });
+    }
+    bool keyRelease(const KeyEvent& e) override
+    {
+        return ask("Tool::keyRelease", [&] { return g_.inner->keyRelease(e); });
+    }
+    bool cancel() override
+    {
+        return ask("Tool::cancel", [&] { return g_.inner->cancel(); });
+    }
     void paint(Painter& painter) const override
     {
         g_.guard.run(g_.plugin, "Tool::paint", [&] { g_.inner->paint(painter); });
     }
-    const PropertyTable& options() const override { return g_.inner->options(); }
+    const PropertyTable& options() const override { return options_; }
 
 private:
     // A tool that failed half-way leaves no half-done edit.
@@ -63,21 +109,30 @@ private:
     }
 
     Guarded<std::unique_ptr<Tool>> g_;
+    const PropertyTable& options_;
 };
 
 class GuardedEffect final : public Effect {
 public:
-    GuardedEffect(Guard& guard, Plugin& plugin, std::shared_ptr<Effect> effect) : g_{guard, plugin, std::move(effect)} {}
-    const PropertyTable& properties() const override { return g_.inner->properties(); }
+    GuardedEffect(Guard& guard, Plugin& plugin, std::shared_ptr<Effect> effect)
+        : g_{guard, plugin, std::move(effect)},
+          table_(tableOf(guard, plugin, "Effect::properties",
+                         [&]() -> const PropertyTable& { return g_.inner->properties(); }))
+    {
+    }
+    const PropertyTable& properties() const override { return table_; }
     std::string rejects(const Item& item) const override
     {
         return g_.guard.call(
             g_.plugin, "Effect::rejects", [&] { return g_.inner->rejects(item); },
             std::string("the plugin " + g_.plugin.manifest.name + " failed"));
     }
-    // A Failure here is the transaction's: it takes the effect back and tells why. Anything else is the plugin's fault, too.
+    // A Failure here is the transaction's: it takes the effect back and tells why. Anything else is the plugin's fault,
+    // too.
     void applied(Transaction& edit, const Item& item) const override
     {
+        if (!g_.plugin.usable())
+            throw Failure(Error("the plugin " + g_.plugin.title() + " is switched off: " + g_.plugin.reason));
         try {
             g_.inner->applied(edit, item);
         } catch (const Failure&) {
@@ -92,7 +147,8 @@ public:
         return g_.guard.call(
             g_.plugin, "Effect::update", [&] { return g_.inner->update(input); }, std::unique_ptr<EffectState>());
     }
-    void paint(const EffectInput& input, const EffectState* state, PaintPurpose purpose, Painter& painter) const override
+    void paint(const EffectInput& input, const EffectState* state, PaintPurpose purpose,
+               Painter& painter) const override
     {
         g_.guard.run(g_.plugin, "Effect::paint", [&] { g_.inner->paint(input, state, purpose, painter); });
     }
@@ -114,13 +170,23 @@ public:
 
 private:
     Guarded<std::shared_ptr<Effect>> g_;
+    const PropertyTable& table_;
 };
 
 class GuardedItemType final : public ItemType {
 public:
-    GuardedItemType(Guard& guard, Plugin& plugin, std::shared_ptr<ItemType> type) : g_{guard, plugin, std::move(type)} {}
-    const PropertyTable& properties() const override { return g_.inner->properties(); }
-    std::string label() const override { return g_.inner->label(); }
+    GuardedItemType(Guard& guard, Plugin& plugin, std::shared_ptr<ItemType> type)
+        : g_{guard, plugin, std::move(type)},
+          table_(tableOf(guard, plugin, "ItemType::properties",
+                         [&]() -> const PropertyTable& { return g_.inner->properties(); }))
+    {
+    }
+    const PropertyTable& properties() const override { return table_; }
+    std::string label() const override
+    {
+        return g_.guard.call(
+            g_.plugin, "ItemType::label", [&] { return g_.inner->label(); }, std::string("Item"));
+    }
     void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const override
     {
         g_.guard.run(g_.plugin, "ItemType::paint", [&] { g_.inner->paint(item, path, purpose, painter); });
@@ -132,22 +198,23 @@ public:
 
 private:
     Guarded<std::shared_ptr<ItemType>> g_;
+    const PropertyTable& table_;
 };
 
 // Formats: a Failure tells of the file; any other exception is the plugin's fault.
 template <class R, class Fn>
 R guardedFormat(Guard& guard, Plugin& plugin, const char* callback, Fn&& fn)
 {
-    return guard.call(
-        plugin, callback,
-        [&]() -> R {
-            try {
-                return fn();
-            } catch (const Failure& failure) {
-                return failure.error();
-            }
-        },
-        R(Error("the plugin " + plugin.title() + " failed while working on this file")));
+    std::optional<R> result;
+    guard.run(plugin, callback, [&] {
+        try {
+            result.emplace(fn());
+        } catch (const Failure& failure) {
+            result.emplace(failure.error());
+        }
+    });
+    if (result) return *std::move(result);
+    return Error("the plugin " + plugin.title() + " was switched off: " + plugin.reason);
 }
 
 class GuardedImporter final : public Importer {
@@ -158,7 +225,8 @@ public:
     }
     Result<void> read(ImportRequest& request) override
     {
-        return guardedFormat<Result<void>>(g_.guard, g_.plugin, "Importer::read", [&] { return g_.inner->read(request); });
+        return guardedFormat<Result<void>>(g_.guard, g_.plugin, "Importer::read",
+                                           [&] { return g_.inner->read(request); });
     }
 
 private:
@@ -181,7 +249,53 @@ private:
     Guarded<std::shared_ptr<Exporter>> g_;
 };
 
-// A world's calls are too many and too small to wrap one by one: the simulation catches what they throw (see Simulation).
+/// A world that failed in a step is in no state to go on: the run ends with the Failure. The other calls are too many
+/// and too small for a guard of their own; what they throw ends the run, too (see Simulation).
+class GuardedWorld final : public PhysicsWorld {
+public:
+    GuardedWorld(Guard& guard, Plugin& plugin, std::unique_ptr<PhysicsWorld> world)
+        : g_{guard, plugin, std::move(world)}
+    {
+    }
+
+    void step(double dt) override
+    {
+        if (!g_.guard.run(g_.plugin, "PhysicsWorld::step", [&] { g_.inner->step(dt); }))
+            throw Failure(Error("the plugin " + g_.plugin.title() + " was switched off: " + g_.plugin.reason));
+    }
+
+    BodyHandle addSoftBody(const SoftBodyDef& def) override { return g_.inner->addSoftBody(def); }
+    BodyHandle addRigidBody(const RigidBodyDef& def) override { return g_.inner->addRigidBody(def); }
+    ActuatorHandle addSpring(const SpringActuatorDef& def) override { return g_.inner->addSpring(def); }
+    ActuatorHandle addAngularSpring(const AngularSpringActuatorDef& def) override
+    {
+        return g_.inner->addAngularSpring(def);
+    }
+    ActuatorHandle addTorque(const TorqueActuatorDef& def) override { return g_.inner->addTorque(def); }
+    ActuatorHandle addForce(const ForceActuatorDef& def) override { return g_.inner->addForce(def); }
+    std::size_t bodyCount() const override { return g_.inner->bodyCount(); }
+    BodyStates bodies() const override { return g_.inner->bodies(); }
+    std::span<const Contact> contacts() const override { return g_.inner->contacts(); }
+    StepStats stats() const override { return g_.inner->stats(); }
+    bool touching(BodyHandle a, BodyHandle b) const override { return g_.inner->touching(a, b); }
+    bool contains(BodyHandle body, const Vec2& point) const override { return g_.inner->contains(body, point); }
+    void setTorque(ActuatorHandle torque, double value) override { g_.inner->setTorque(torque, value); }
+    void setForce(ActuatorHandle force, const Vec2& value) override { g_.inner->setForce(force, value); }
+    void applyForce(BodyHandle body, const Vec2& force) override { g_.inner->applyForce(body, force); }
+    void applyImpulse(BodyHandle body, const Vec2& impulse) override { g_.inner->applyImpulse(body, impulse); }
+    void setVelocity(BodyHandle body, const Vec2& velocity) override { g_.inner->setVelocity(body, velocity); }
+    void setOmega(BodyHandle body, double omega) override { g_.inner->setOmega(body, omega); }
+    void setPosition(BodyHandle body, const Vec2& centre) override { g_.inner->setPosition(body, centre); }
+    void setGravity(const Vec2& gravity) override { g_.inner->setGravity(gravity); }
+    bool springAlive(BodyHandle body, std::uint32_t index) const override { return g_.inner->springAlive(body, index); }
+    std::uint64_t hash() const override { return g_.inner->hash(); }
+    std::vector<std::byte> save() const override { return g_.inner->save(); }
+    void restore(std::span<const std::byte> state) override { g_.inner->restore(state); }
+
+private:
+    Guarded<std::unique_ptr<PhysicsWorld>> g_;
+};
+
 class GuardedPhysicsEngine final : public PhysicsEngine {
 public:
     GuardedPhysicsEngine(Guard& guard, Plugin& plugin, std::shared_ptr<PhysicsEngine> engine)
@@ -190,9 +304,11 @@ public:
     }
     std::unique_ptr<PhysicsWorld> createWorld(const WorldSettings& settings) override
     {
-        return g_.guard.call(
+        auto world = g_.guard.call(
             g_.plugin, "PhysicsEngine::createWorld", [&] { return g_.inner->createWorld(settings); },
             std::unique_ptr<PhysicsWorld>());
+        if (!world) return nullptr;
+        return std::make_unique<GuardedWorld>(g_.guard, g_.plugin, std::move(world));
     }
 
 private:
@@ -207,11 +323,15 @@ public:
     }
     Result<void> run(const Item& script) override
     {
-        return guardedFormat<Result<void>>(g_.guard, g_.plugin, "ScriptRuntime::run", [&] { return g_.inner->run(script); });
+        return guardedFormat<Result<void>>(g_.guard, g_.plugin, "ScriptRuntime::run",
+                                           [&] { return g_.inner->run(script); });
     }
     void dispatch(const ScriptEvent& event) override
     {
-        g_.guard.run(g_.plugin, "ScriptRuntime::dispatch", [&] { g_.inner->dispatch(event); });
+        // What scripts do wrong the runtime reports itself; what comes here is the runtime's own failure, and ends the
+        // run.
+        if (!g_.guard.run(g_.plugin, "ScriptRuntime::dispatch", [&] { g_.inner->dispatch(event); }))
+            throw Failure(Error("the plugin " + g_.plugin.title() + " was switched off: " + g_.plugin.reason));
     }
     bool listensTo(ScriptEventKind kind) const override
     {
@@ -244,7 +364,10 @@ private:
 
 class GuardedCommand final : public Command {
 public:
-    GuardedCommand(Guard& guard, Plugin& plugin, std::shared_ptr<Command> command) : g_{guard, plugin, std::move(command)} {}
+    GuardedCommand(Guard& guard, Plugin& plugin, std::shared_ptr<Command> command)
+        : g_{guard, plugin, std::move(command)}
+    {
+    }
     void run(Editor& editor) override
     {
         const bool fine = g_.guard.run(g_.plugin, "Command::run", [&] { g_.inner->run(editor); });
@@ -261,8 +384,29 @@ private:
     Guarded<std::shared_ptr<Command>> g_;
 };
 
+/// The widget itself is Qt's and the plugin's; what can be guarded is its making.
+class GuardedPanel final : public Panel {
+public:
+    GuardedPanel(Guard& guard, Plugin& plugin, std::unique_ptr<Panel> panel, Editor& editor)
+        : Panel(editor), g_{guard, plugin, std::move(panel)}
+    {
+    }
+    QWidget* createWidget() override
+    {
+        return g_.guard.call(
+            g_.plugin, "Panel::createWidget", [&] { return g_.inner->createWidget(); }, static_cast<QWidget*>(nullptr));
+    }
+
+private:
+    Guarded<std::unique_ptr<Panel>> g_;
+};
+
 }  // namespace
 
+std::unique_ptr<Panel> guarded(Guard& guard, Plugin& plugin, std::unique_ptr<Panel> panel, Editor& editor)
+{
+    return std::make_unique<GuardedPanel>(guard, plugin, std::move(panel), editor);
+}
 std::unique_ptr<Tool> guarded(Guard& guard, Plugin& plugin, std::unique_ptr<Tool> tool, ToolHost& host)
 {
     return std::make_unique<GuardedTool>(guard, plugin, std::move(tool), host);

@@ -9,12 +9,14 @@
 #include <jet/script.hpp>
 #include <jet/simulation.hpp>
 #include <jet/tool.hpp>
+#include <jet/ui/panel.hpp>  // the interface needs no Qt
 
 #include <memory>
 
 namespace jet::host {
 
 std::unique_ptr<Tool> guarded(Guard& guard, Plugin& plugin, std::unique_ptr<Tool> tool, ToolHost& host);
+std::unique_ptr<Panel> guarded(Guard& guard, Plugin& plugin, std::unique_ptr<Panel> panel, Editor& editor);
 std::shared_ptr<Effect> guarded(Guard& guard, Plugin& plugin, std::shared_ptr<Effect> effect);
 std::shared_ptr<ItemType> guarded(Guard& guard, Plugin& plugin, std::shared_ptr<ItemType> type);
 std::shared_ptr<Importer> guarded(Guard& guard, Plugin& plugin, std::shared_ptr<Importer> importer);

@@ -48,7 +48,8 @@ public:
         checkId(manifest.id);
         manifest.name = string(json, "name");
         manifest.library = string(json, "library");
-        if (manifest.library.find('/') != std::string::npos) fail("library", "names a file in the plugin's own folder, without '/'");
+        if (manifest.library.find('/') != std::string::npos)
+            fail("library", "names a file in the plugin's own folder, without '/'");
         manifest.version = version(json, "version");
         manifest.jet = version(json, "jet");
         manifest.description = optionalString(json, "description");
@@ -96,7 +97,8 @@ private:
     std::string string(const Json& json, const char* field) const
     {
         if (!json.contains(field)) fail(field, std::string("this field is missing; add it to the manifest"));
-        if (!json[field].is_string() || json[field].get_ref<const std::string&>().empty()) fail(field, "must be a text that is not empty");
+        if (!json[field].is_string() || json[field].get_ref<const std::string&>().empty())
+            fail(field, "must be a text that is not empty");
         return json[field];
     }
 
@@ -120,7 +122,9 @@ private:
             return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_';
         });
         if (!plain || id.find('.') == std::string::npos || id.front() == '.' || id.back() == '.')
-            fail("id", "'" + id + "' is not an id; write it as org.example.name: lower-case letters, digits, '-', '_' and dots");
+            fail("id",
+                 "'" + id +
+                     "' is not an id; write it as org.example.name: lower-case letters, digits, '-', '_' and dots");
     }
 
     std::vector<Dependency> dependencies(const Json& json, const char* field) const
@@ -129,7 +133,8 @@ private:
         if (!json.contains(field)) return list;
         if (!json[field].is_array()) fail(field, "must be a list of plugin ids");
         for (const Json& entry : json[field]) {
-            if (!entry.is_string()) fail(field, "must be a list of plugin ids, each a text like \"org.example.name 1.2\"");
+            if (!entry.is_string())
+                fail(field, "must be a list of plugin ids, each a text like \"org.example.name 1.2\"");
             const std::string text = entry;
             const std::size_t space = text.find(' ');
             Dependency dependency{text.substr(0, space), {}};

@@ -31,8 +31,8 @@ struct Dependency {
 struct Manifest {
     std::string id, name, description, license, library;
     Version version;
-    Version jet;             ///< SDK it was written for
-    std::string sdk, abi;    ///< SDK version and compiler ABI it was built with; written by jet_add_plugin()
+    Version jet;           ///< SDK it was written for
+    std::string sdk, abi;  ///< SDK version and compiler ABI it was built with; written by jet_add_plugin()
     std::vector<Dependency> requires_, optional;
     std::vector<Contribution> contributions;
 

@@ -1,4 +1,5 @@
-// One installed plugin: its manifest, its state with the reason for it, its library once loaded, and what calls into it cost.
+// One installed plugin: its manifest, its state with the reason for it, its library once loaded, and what calls into it
+// cost.
 #pragma once
 
 #include "manifest.hpp"

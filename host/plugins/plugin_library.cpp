@@ -9,7 +9,8 @@ namespace jet::host {
 
 std::string_view stateName(PluginState state)
 {
-    static constexpr std::string_view names[] = {"found", "valid", "resolved", "loaded", "active", "disabled", "shadowed", "faulted"};
+    static constexpr std::string_view names[] = {"found",  "valid",    "resolved", "loaded",
+                                                 "active", "disabled", "shadowed", "faulted"};
     return names[static_cast<int>(state)];
 }
 
@@ -26,8 +27,14 @@ public:
     void addItemType(std::string_view id, Factory<ItemType> f) override { add(target_.itemTypes, id, std::move(f)); }
     void addImporter(std::string_view id, Factory<Importer> f) override { add(target_.importers, id, std::move(f)); }
     void addExporter(std::string_view id, Factory<Exporter> f) override { add(target_.exporters, id, std::move(f)); }
-    void addPhysicsEngine(std::string_view id, Factory<PhysicsEngine> f) override { add(target_.physicsEngines, id, std::move(f)); }
-    void addScriptEngine(std::string_view id, Factory<ScriptEngine> f) override { add(target_.scriptEngines, id, std::move(f)); }
+    void addPhysicsEngine(std::string_view id, Factory<PhysicsEngine> f) override
+    {
+        add(target_.physicsEngines, id, std::move(f));
+    }
+    void addScriptEngine(std::string_view id, Factory<ScriptEngine> f) override
+    {
+        add(target_.scriptEngines, id, std::move(f));
+    }
     void addCommand(std::string_view id, Factory<Command> f) override { add(target_.commands, id, std::move(f)); }
 
 private:
@@ -63,11 +70,13 @@ Result<void> checkBuild(const Manifest& manifest)
     const auto wants = [&](const Version& wanted, const std::string& how) -> Result<void> {
         if (wanted.major == host.major && wanted.minor <= host.minor) return {};
         return Error("it was " + how + " for SDK " + wanted.text() + ", this JET has SDK " + host.text() + "; " +
-                     (wanted > host ? "use a newer JET or an older version of the plugin" : "rebuild the plugin with the present SDK"));
+                     (wanted > host ? "use a newer JET or an older version of the plugin"
+                                    : "rebuild the plugin with the present SDK"));
     };
     if (const auto written = wants(manifest.jet, "written"); !written) return written;
     if (manifest.sdk.empty() || manifest.abi.empty())
-        return Error("its plugin.json does not say what it was built with; build it with jet_add_plugin() and use the copy beside "
+        return Error("its plugin.json does not say what it was built with; build it with jet_add_plugin() and use the "
+                     "copy beside "
                      "the built library");
     const auto built = Version::parse(manifest.sdk);
     if (!built) return built.error();
@@ -91,7 +100,8 @@ Result<void> checkRegistrations(const Manifest& manifest, const Registrations& r
     compare(ContributionKind::ScriptEngine, manifest, registered.scriptEngines, difference);
     compare(ContributionKind::Command, manifest, registered.commands, difference);
     if (difference.empty()) return {};
-    return Error("what it declares and what it registers differ: " + difference + "; make plugin.json and JET_PLUGIN agree");
+    return Error("what it declares and what it registers differ: " + difference +
+                 "; make plugin.json and JET_PLUGIN agree");
 }
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Plugin& plugin, Registrations& registrations)
@@ -110,12 +120,16 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Plugin& plugin,
     static auto* const kept = new std::vector<dll::shared_library>;
     kept->push_back(opened->library_);
     if (!opened->library_.has("jet_plugin_entry"))
-        return Error("its library has no symbol jet_plugin_entry; write JET_PLUGIN(plugin) { ... } in one of its files");
+        return Error(
+            "its library has no symbol jet_plugin_entry; write JET_PLUGIN(plugin) { ... } in one of its files");
     const auto& entry = opened->library_.get<const JetPluginEntry>("jet_plugin_entry");
-    if (entry.magic != JET_PLUGIN_MAGIC) return Error("its jet_plugin_entry is not one; rebuild it with the present SDK");
-    if (entry.sdkMajor != JET_SDK_VERSION_MAJOR || entry.sdkMinor > JET_SDK_VERSION_MINOR || std::string_view(entry.abi) != JET_ABI_TAG)
-        return Error("its library was built for SDK " + std::to_string(entry.sdkMajor) + "." + std::to_string(entry.sdkMinor) +
-                     " (" + entry.abi + "), other than its plugin.json says; build and install both together");
+    if (entry.magic != JET_PLUGIN_MAGIC)
+        return Error("its jet_plugin_entry is not one; rebuild it with the present SDK");
+    if (entry.sdkMajor != JET_SDK_VERSION_MAJOR || entry.sdkMinor > JET_SDK_VERSION_MINOR ||
+        std::string_view(entry.abi) != JET_ABI_TAG)
+        return Error("its library was built for SDK " + std::to_string(entry.sdkMajor) + "." +
+                     std::to_string(entry.sdkMinor) + " (" + entry.abi +
+                     "), other than its plugin.json says; build and install both together");
     try {
         Collector collector(registrations);
         entry.registerContributions(collector);

@@ -16,8 +16,8 @@ private:
     boost::dll::shared_library library_;
 };
 
-/// Can this host run what the manifest says it was built for? Asked before the library is opened, since static constructors
-/// run inside dlopen.
+/// Can this host run what the manifest says it was built for? Asked before the library is opened, since static
+/// constructors run inside dlopen.
 Result<void> checkBuild(const Manifest& manifest);
 /// Was registered what is declared? The error lists the difference.
 Result<void> checkRegistrations(const Manifest& manifest, const Registrations& registrations);

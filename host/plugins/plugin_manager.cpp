@@ -46,7 +46,8 @@ void PluginManager::readFolder(const fs::path& folder)
     std::error_code problem;
     std::vector<fs::path> candidates;
     for (const auto& entry : fs::directory_iterator(folder, problem)) candidates.push_back(entry.path());
-    if (fs::exists(folder / "plugin.json", problem)) candidates.push_back(folder);  // --plugin-path may name one plugin itself
+    if (fs::exists(folder / "plugin.json", problem))
+        candidates.push_back(folder);  // --plugin-path may name one plugin itself
     std::sort(candidates.begin(), candidates.end());
     for (const fs::path& candidate : candidates) {
         const fs::path file = candidate / "plugin.json";
@@ -75,8 +76,12 @@ void PluginManager::adopt(std::unique_ptr<Plugin> plugin)
         place = std::move(plugin);
         return;
     }
-    plugin->state = PluginState::Shadowed;
-    plugin->reason = "version " + place->manifest.version.text() + " in " + place->folder.string() + " is used instead";
+    // A broken manifest stays worth telling, even where another copy of the plugin works.
+    if (plugin->state != PluginState::Faulted) {
+        plugin->state = PluginState::Shadowed;
+        plugin->reason =
+            "version " + place->manifest.version.text() + " in " + place->folder.string() + " is used instead";
+    }
     shadowed_.push_back(std::move(plugin));
 }
 
@@ -116,14 +121,16 @@ void PluginManager::resolve(Plugin& plugin, std::vector<const Plugin*>& chain)
     chain.push_back(&plugin);
     for (const Dependency& need : plugin.manifest.requires_) {
         const auto found = plugins_.find(need.id);
-        const auto inChain = std::find_if(chain.begin(), chain.end(), [&](const Plugin* p) { return p->manifest.id == need.id; });
+        const auto inChain =
+            std::find_if(chain.begin(), chain.end(), [&](const Plugin* p) { return p->manifest.id == need.id; });
         if (inChain != chain.end()) {
             fault("it depends on itself: " + path(need.id) + "; remove one of these requirements");
         } else if (found == plugins_.end()) {
             fault("it requires " + need.id + " (" + path(need.id) + "), which is not installed; install it");
         } else if (need.minimum != Version{} && !need.admits(found->second->manifest.version)) {
-            fault("it requires " + need.id + " " + need.minimum.text() + " or a later " + std::to_string(need.minimum.major) +
-                  ".x, version " + found->second->manifest.version.text() + " is installed; install a matching one");
+            fault("it requires " + need.id + " " + need.minimum.text() + " or a later " +
+                  std::to_string(need.minimum.major) + ".x, version " + found->second->manifest.version.text() +
+                  " is installed; install a matching one");
         } else {
             resolve(*found->second, chain);
             if (plugin.state == PluginState::Valid && !found->second->usable())
@@ -166,15 +173,17 @@ const Plugin* PluginManager::plugin(std::string_view id) const
 std::vector<std::string> PluginManager::problems() const
 {
     std::vector<std::string> list;
-    for (const auto& [id, plugin] : plugins_)
-        if (plugin->state == PluginState::Faulted) list.push_back("The plugin " + id + " is not used: " + plugin->reason);
+    for (const Plugin* plugin : plugins())
+        if (plugin->state == PluginState::Faulted)
+            list.push_back("The plugin " + plugin->manifest.id + " is not used: " + plugin->reason);
     return list;
 }
 
 Result<void> PluginManager::load(std::string_view id)
 {
     const auto found = plugins_.find(id);
-    if (found == plugins_.end()) return Error("there is no plugin '" + std::string(id) + "'; 'jet plugins list' shows all");
+    if (found == plugins_.end())
+        return Error("there is no plugin '" + std::string(id) + "'; 'jet plugins list' shows all");
     loadOrFault(*found->second);
     if (found->second->usable()) return {};
     return Error("the plugin " + found->second->title() + " is " + std::string(stateName(found->second->state)) + ": " +
@@ -201,7 +210,8 @@ void PluginManager::loadOrFault(Plugin& plugin)
         plugin.state = PluginState::Faulted;
         plugin.reason = fine.error().message;
         if (guard_.onProblem)
-            guard_.onProblem({plugin.manifest.id, "load", "The plugin " + plugin.title() + " cannot be used: " + plugin.reason});
+            guard_.onProblem({plugin.manifest.id, "load",
+                              "the plugin " + plugin.title() + " cannot be used: " + plugin.reason, plugin.reason});
         return;
     }
     plugin.library = std::move(*opened);
@@ -249,15 +259,28 @@ std::vector<Contribution> PluginManager::contributions(ContributionKind kind) co
 template <class T, class Map>
 T* PluginManager::shared(Table<T>& table, ContributionKind kind, std::string_view id, Map Registrations::*factories)
 {
-    if (const auto found = table.find(id); found != table.end()) return found->second.get();
-    std::shared_ptr<T> made;
-    if (Plugin* plugin = ready(kind, id)) {
-        const auto factory = (plugin->registrations.*factories).find(id);
-        auto own = guard_.call(*plugin, "factory", [&] { return factory->second(); }, std::shared_ptr<T>());
-        if (own) made = guarded(guard_, *plugin, std::move(own));
+    auto found = table.find(id);
+    if (found == table.end()) {
+        Shared<T> made;
+        if (Plugin* plugin = ready(kind, id)) {
+            const auto factory = (plugin->registrations.*factories).find(id);
+            auto own = guard_.call(
+                *plugin, "factory", [&] { return factory->second(); }, std::shared_ptr<T>());
+            if (own) made = {guarded(guard_, *plugin, std::move(own)), plugin};
+        }
+        // Objects stay valid while the manager lives; "nothing" is remembered, too: a failed plugin is not asked again.
+        found = table.emplace(id, std::move(made)).first;
     }
-    // Objects stay valid while the manager lives; "nothing" is remembered, too: a failed plugin is not asked again.
-    return table.emplace(id, std::move(made)).first->second.get();
+    const Shared<T>& shared = found->second;
+    return shared.plugin && shared.plugin->usable() ? shared.object.get() : nullptr;
+}
+
+template <class Get>
+auto PluginManager::firstWorking(ContributionKind kind, Get&& get) -> decltype(get(std::string()))
+{
+    for (const Contribution& one : contributions(kind))
+        if (auto* engine = get(one.id)) return engine;
+    return nullptr;
 }
 
 const ItemType* PluginManager::itemType(std::string_view id)
@@ -282,19 +305,17 @@ Exporter* PluginManager::exporter(std::string_view extension)
 
 PhysicsEngine* PluginManager::physicsEngine(std::string_view id)
 {
-    if (id.empty()) {
-        const auto all = contributions(ContributionKind::PhysicsEngine);
-        return all.empty() ? nullptr : physicsEngine(all.front().id);
-    }
+    if (id.empty())
+        return firstWorking(ContributionKind::PhysicsEngine,
+                            [this](const std::string& any) { return physicsEngine(any); });
     return shared(physicsEngines_, ContributionKind::PhysicsEngine, id, &Registrations::physicsEngines);
 }
 
 ScriptEngine* PluginManager::scriptEngine(std::string_view id)
 {
-    if (id.empty()) {
-        const auto all = contributions(ContributionKind::ScriptEngine);
-        return all.empty() ? nullptr : scriptEngine(all.front().id);
-    }
+    if (id.empty())
+        return firstWorking(ContributionKind::ScriptEngine,
+                            [this](const std::string& any) { return scriptEngine(any); });
     return shared(scriptEngines_, ContributionKind::ScriptEngine, id, &Registrations::scriptEngines);
 }
 
@@ -308,7 +329,8 @@ std::unique_ptr<Tool> PluginManager::createTool(std::string_view id, ToolHost& h
     Plugin* plugin = ready(ContributionKind::Tool, id);
     if (!plugin) return nullptr;
     const auto factory = plugin->registrations.tools.find(id);
-    auto tool = guard_.call(*plugin, "factory", [&] { return factory->second(host); }, std::unique_ptr<Tool>());
+    auto tool = guard_.call(
+        *plugin, "factory", [&] { return factory->second(host); }, std::unique_ptr<Tool>());
     return tool ? guarded(guard_, *plugin, std::move(tool), host) : nullptr;
 }
 
@@ -317,13 +339,19 @@ std::unique_ptr<Panel> PluginManager::createPanel(std::string_view id, Editor& e
     Plugin* plugin = ready(ContributionKind::Panel, id);
     if (!plugin) return nullptr;
     const auto factory = plugin->registrations.panels.find(id);
-    return guard_.call(*plugin, "factory", [&] { return factory->second(editor); }, std::unique_ptr<Panel>());
+    auto panel = guard_.call(
+        *plugin, "factory", [&] { return factory->second(editor); }, std::unique_ptr<Panel>());
+    return panel ? guarded(guard_, *plugin, std::move(panel), editor) : nullptr;
 }
 
 std::string PluginManager::explain(ContributionKind kind, std::string_view id) const
 {
     const bool format = kind == ContributionKind::Importer || kind == ContributionKind::Exporter;
-    const std::string name = format ? findFormat(kind, id) : std::string(id);
+    std::string name = format ? findFormat(kind, id) : std::string(id);
+    // Any engine would do: tell of one that is there and does not work.
+    if (name.empty() && !format)
+        for (const auto& [key, plugin] : index_)
+            if (key.first == kind && (name.empty() || plugin->usable())) name = key.second;
     std::string what = std::string(kindName(kind)) + " '" + std::string(id) + "'";
     if (format) what = std::string(kindName(kind)) + " for ." + std::string(id) + " files";
     if (id.empty()) what = std::string(kindName(kind));

@@ -1,4 +1,5 @@
-// PluginManager: finds plugins, decides which can run, loads them on first use. It is the Catalog the whole program uses.
+// PluginManager: finds plugins, decides which can run, loads them on first use. It is the Catalog the whole program
+// uses.
 #pragma once
 
 #include "guarded.hpp"
@@ -33,7 +34,8 @@ public:
     explicit PluginManager(PluginOptions options);
     ~PluginManager() override;
 
-    /// Reads all manifests and resolves dependencies. Loads nothing. Never fails: what is wrong is in the plugins' reasons.
+    /// Reads all manifests and resolves dependencies. Loads nothing. Never fails: what is wrong is in the plugins'
+    /// reasons.
     void scan();
 
     /// By id.
@@ -61,14 +63,23 @@ public:
 
 private:
     using Key = std::pair<ContributionKind, std::string>;
+    /// A guarded object and the plugin it is from; both null where there is none.
     template <class T>
-    using Table = std::map<std::string, std::shared_ptr<T>, std::less<>>;
+    struct Shared {
+        std::shared_ptr<T> object;
+        const Plugin* plugin = nullptr;
+    };
+    template <class T>
+    using Table = std::map<std::string, Shared<T>, std::less<>>;
 
     void readFolder(const std::filesystem::path& folder);
     void adopt(std::unique_ptr<Plugin> plugin);
     void resolve();
     void resolve(Plugin& plugin, std::vector<const Plugin*>& chain);
     void buildIndex();
+    /// Of the kind, the first that works; an engine that fails makes room for the next.
+    template <class Get>
+    auto firstWorking(ContributionKind kind, Get&& get) -> decltype(get(std::string()));
     Plugin* providerOf(ContributionKind kind, std::string_view id) const;
     std::string findFormat(ContributionKind kind, std::string_view extension) const;
     Plugin* ready(ContributionKind kind, std::string_view id);

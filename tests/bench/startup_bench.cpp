@@ -1,0 +1,125 @@
+// How soon JET is there: bin/jet as a process, from fork to exit; the ball game headless; the window's first painted
+// frame.
+#include "bench/summary.hpp"
+
+#include <jet/version.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kJet = JET_BINARY_DIR "/bin/jet";
+const std::string kGame = JET_SOURCE_DIR "/examples/games/ball";
+
+/// A data folder with 200 installed manifests, so that only they are added to what ships.
+fs::path dataFolder()
+{
+    static const fs::path one = [] {
+        std::string name = (fs::temp_directory_path() / "jet-bench-XXXXXX").string();
+        const fs::path folder = ::mkdtemp(name.data());
+        for (int i = 0; i < 200; ++i) {
+            const std::string id = "org.bench.p" + std::to_string(i);
+            fs::create_directories(folder / "jet/plugins" / id);
+            std::ofstream(folder / "jet/plugins" / id / "plugin.json")
+                << "{ \"id\": \"" << id
+                << "\", \"name\": \"P\", \"version\": \"1.0.0\", \"jet\": \"" JET_SDK_VERSION
+                   "\", \"library\": \"p\",\n"
+                << "  \"description\": \"One of many.\", \"license\": \"MIT\", \"requires\": [],\n"
+                << "  \"builtFor\": { \"sdk\": \"" JET_SDK_VERSION "\", \"abi\": \"" JET_ABI_TAG "\" },\n"
+                << "  \"contributes\": { \"tools\": [ { \"id\": \"t" << i
+                << "\", \"label\": \"T\", \"icon\": \"t.svg\", \"shortcut\": \"M\" } ],\n"
+                << "    \"effects\": [ { \"id\": \"e" << i << "\", \"label\": \"E\" } ] } }\n";
+        }
+        return folder;
+    }();
+    return one;
+}
+
+/// Runs bin/jet silently; returns its exit code.
+int jet(const std::vector<std::string>& arguments)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        (void)!std::freopen("/dev/null", "w", stdout);
+        std::vector<char*> argv{const_cast<char*>(kJet.c_str())};
+        for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+        argv.push_back(nullptr);
+        ::execv(kJet.c_str(), argv.data());
+        ::_exit(127);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void version(benchmark::State& state)
+{
+    for (auto _ : state)
+        if (jet({"--version"}) != 0) state.SkipWithError("jet --version failed");
+}
+BENCHMARK(version)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void pluginsList(benchmark::State& state)
+{
+    for (auto _ : state)
+        if (jet({"plugins", "list"}) != 0) state.SkipWithError("jet plugins list failed");
+}
+BENCHMARK(pluginsList)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void ballGame(benchmark::State& state)
+{
+    if (!fs::exists(kGame)) return state.SkipWithError("there is no ball game");
+    for (auto _ : state)
+        if (jet({"play", kGame, "--steps", "3000"}) != 0) state.SkipWithError("the ball game did not play");
+}
+BENCHMARK(ballGame)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Milliseconds from the start of the process to the first painted frame, as the window tells with
+/// JET_TRACE_FIRST_FRAME; below 0 where it does not.
+double firstFrame()
+{
+    const std::string command =
+        "QT_QPA_PLATFORM=offscreen JET_TRACE_FIRST_FRAME=1 timeout 20 '" + kJet + "' '" + kGame + "' 2>&1";
+    std::FILE* output = ::popen(command.c_str(), "r");
+    double ms = -1;
+    char line[1000];
+    while (std::fgets(line, sizeof line, output))
+        if (std::sscanf(line, "first frame after %lf ms", &ms) == 1) break;
+    ::pclose(output);
+    return ms;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    ::setenv("XDG_DATA_HOME", dataFolder().c_str(), 1);
+    ::setenv("XDG_CONFIG_HOME", dataFolder().c_str(), 1);
+    const int code = jet::bench::run(argc, argv, [](const jet::bench::Times& times, jet::bench::Summary& summary) {
+        const auto ms = [&](const char* name) { return times.contains(name) ? times.at(name) / 1e6 : 0.0; };
+        const auto add = [&](const char* key, const char* name, double goal) {
+            if (ms(name) > 0) summary.add(key, ms(name), "ms", goal, ms(name) < goal);
+        };
+        add("version", "version", 30);
+        add("plugins_list_200", "pluginsList", 60);
+        if (ms("ballGame") > 0) {
+            const double pace = 3000.0 / 60 / (ms("ballGame") / 1000);
+            summary.add("ball_game", pace, "x real time", 50, pace >= 50);
+        }
+        double best = -1;
+        for (int i = 0; i < 3; ++i)
+            if (const double frame = firstFrame(); frame >= 0 && (best < 0 || frame < best)) best = frame;
+        if (best >= 0) summary.add("first_frame", best, "ms", 400, best < 400);
+    });
+    std::error_code ignored;
+    fs::remove_all(dataFolder(), ignored);
+    return code;
+}

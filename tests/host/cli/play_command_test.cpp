@@ -1,0 +1,173 @@
+// jet play: without a window, the same every time, and with one message when something is wrong.
+#include "cli_fixture.hpp"
+
+namespace jet::test {
+namespace {
+
+class PlayCommandTest : public CliTest {
+protected:
+    PlayCommandTest() { plugins().link("org.jet.test.good"); }
+};
+
+TEST_F(PlayCommandTest, ThePlayedStateIsAsPromised)
+{
+    writeGame();
+    const Outcome run = jet("play game --physics falling --steps 60 --state state.json");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("hello\n"));
+    EXPECT_THAT(run.out, HasSubstr("played 'One': 60 steps, 1.00 s simulated"));
+    EXPECT_EQ(run.err, "");
+    const auto state = json(read("state.json"));
+    EXPECT_EQ(state["step"], 60);
+    EXPECT_EQ(state["output"][0], "hello");
+    EXPECT_EQ(state["items"][0]["name"], "Box");
+    EXPECT_NEAR(state["items"][0]["position"][1].get<double>(), 5 + 98.1 / 3600 * 60 * 61 / 2, 1e-9);
+    EXPECT_EQ(json(jet("--json play game --physics falling --steps 60").out), state) << "--json prints the same";
+}
+
+TEST_F(PlayCommandTest, PlayingTwiceGivesTheSameHash)
+{
+    writeGame();
+    write("keys.json",
+          R"({ "events": [ { "step": 7, "key": "D", "down": true }, { "step": 3, "key": "A", "down": true } ] })");
+    for (const char* name : {"a", "b"})
+        ASSERT_EQ(
+            jet("play game --physics falling --steps 150 --input keys.json --record " + std::string(name) + ".json")
+                .code,
+            0);
+    EXPECT_EQ(read("a.json"), read("b.json"));
+    const auto record = json(read("a.json"));
+    EXPECT_EQ(record["hashes"].size(), 2u);
+    EXPECT_EQ(record["events"][0]["key"], "A");
+    // What was recorded plays again.
+    EXPECT_EQ(jet("play game --physics falling --steps 150 --input a.json --record c.json").code, 0);
+    EXPECT_EQ(json(read("c.json"))["hash"], record["hash"]);
+}
+
+TEST_F(PlayCommandTest, KeysReachTheScripts)
+{
+    writeGame();
+    write("keys.json", R"({ "events": [ { "step": 2, "key": "D", "down": true } ] })");
+    EXPECT_THAT(jet("play game --physics falling --input keys.json").out, HasSubstr("key D\n"));
+}
+
+TEST_F(PlayCommandTest, AnotherSceneByNameByNumberAndByScript)
+{
+    writeGame("go Two");
+    EXPECT_THAT(jet("play game --physics falling --scene Two").out, HasSubstr("played 'Two'"));
+    EXPECT_THAT(jet("play game --physics falling --scene 1").out, HasSubstr("played 'Two'"));
+    EXPECT_THAT(jet("play game --physics falling --steps 20").out, HasSubstr("played 'Two'"));
+    const Outcome run = jet("play game --physics falling --scene Three");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(run.err, "game/project.jet: error: there is no scene 'Three'; the project has 'One', 'Two'\n");
+    writeGame("go Nowhere");
+    const Outcome lost = jet("play game --physics falling --steps 20");
+    EXPECT_EQ(lost.code, 1);
+    EXPECT_THAT(lost.err, HasSubstr("a script went to the scene 'Nowhere'"));
+}
+
+TEST_F(PlayCommandTest, AScriptErrorNamesScriptAndLineAndTheGameGoesOn)
+{
+    writeGame("print a\nfail x is not defined");
+    const Outcome run = jet("play game --physics falling --steps 3");
+    EXPECT_EQ(run.code, 0);
+    EXPECT_EQ(run.err, "Script:2: error: x is not defined\n");
+}
+
+TEST_F(PlayCommandTest, WithoutPhysicsItSaysWhatIsMissing)
+{
+    writeGame();
+    const Outcome run = jet("play game --physics quantum");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_THAT(run.err, HasSubstr("error: the scene cannot be played: No installed plugin provides the physics engine "
+                                   "'quantum'; install one"));
+    EXPECT_EQ(lines(run.err), 1u);
+    plugins().link("org.jet.test.throws-on-load");
+    const Outcome broken = jet("play game --physics licensed");
+    EXPECT_EQ(broken.code, 1);
+    EXPECT_THAT(broken.err, HasSubstr("no licence found"));
+    EXPECT_EQ(lines(broken.err), 1u) << broken.err;
+}
+
+TEST_F(PlayCommandTest, AnEngineThatBreaksMidwayIsOneMessage)
+{
+    writeGame("step-throw 7");
+    const Outcome run = jet("play game --physics falling --steps 20 --state state.json");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_THAT(run.err, HasSubstr("error: the plugin Good (org.jet.test.good 1.2.3) was switched off: "
+                                   "ScriptRuntime::dispatch failed: the script engine broke"));
+    EXPECT_EQ(lines(run.err), 1u) << run.err;
+    EXPECT_FALSE(exists("state.json"));
+}
+
+class BrokenCallbackTest : public PlayCommandTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(BrokenCallbackTest, EndsThePlayWithAMessageNamingThePlugin)
+{
+    plugins().link("org.jet.test.throws-inside");
+    writeGame();
+    write("game/one.scene",
+          "<scene version=\"1\"><item type=\"body\" id=\"1\" name=\"Box\"><path>M 0 0 L 10 0 L 10 10 Z</path>"
+          "<effect type=\"fragile\"/></item><item type=\"fragile\" id=\"2\" name=\"F\"/>"
+          "<item type=\"script\" id=\"3\" name=\"S\"/></scene>");
+    const Outcome run = plain("--plugins test.jetset --plugin-path '" + plugins().path().string() +
+                              "' --without org.jet.test.good play game --steps 20",
+                          std::string("JET_TEST_THROW='") + GetParam() + "'");
+    EXPECT_EQ(run.code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("Throws inside (org.jet.test.throws-inside 1.0.0)"));
+    EXPECT_THAT(run.err, HasSubstr(std::string(GetParam()) + " failed: oops"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Play, BrokenCallbackTest,
+                         testing::Values("Effect::properties", "Effect::buildBody", "ItemType::properties",
+                                         "ItemType::build", "PhysicsEngine::createWorld", "PhysicsWorld::step",
+                                         "ScriptEngine::createRuntime", "ScriptRuntime::run", "ScriptRuntime::dispatch",
+                                         "ScriptRuntime::listensTo"));
+
+TEST_F(PlayCommandTest, WrongInputFilesAreToldBeforePlaying)
+{
+    writeGame();
+    for (const auto& [content, message] : std::map<std::string, std::string>{
+             {"{\n\"events\": [ }", "keys.json:2: error: the recorded input is not valid JSON"},
+             {"[]", "keys.json: error: recorded input: it must be {"},
+             {R"({"events": [{"key": "D", "down": true}]})", "event number 1 needs \"step\""},
+             {R"({"events": [{"step": -1, "key": "D", "down": true}]})", "needs \"step\""},
+             {R"({"events": [{"step": 1, "down": true}]})", "needs \"key\""},
+             {R"({"events": [{"step": 1, "key": "D", "down": 1}]})", "needs \"down\""}}) {
+        write("keys.json", content);
+        const Outcome run = jet("play game --physics falling --input keys.json");
+        EXPECT_EQ(run.code, 1) << content;
+        EXPECT_THAT(run.err, HasSubstr(message));
+        EXPECT_THAT(run.out, testing::Not(HasSubstr("played")));
+    }
+    EXPECT_EQ(jet("play game --physics falling --input nowhere.json").code, 1);
+}
+
+TEST_F(PlayCommandTest, AReadOnlyTargetIsLeftAlone)
+{
+    writeGame();
+    write("state.json", "old");
+    std::filesystem::permissions(home() / "state.json", std::filesystem::perms::owner_read);
+    const Outcome run = jet("play game --physics falling --steps 1 --state state.json");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(
+        run.err,
+        "state.json: error: cannot be written: Permission denied; check the permissions of the file and its folder\n");
+    EXPECT_EQ(read("state.json"), "old");
+    EXPECT_THAT(jet("play game --physics falling --steps 1 --state /dev/full").err,
+                HasSubstr("No space left on device; free some space"));
+}
+
+TEST_F(PlayCommandTest, ASnapshotNobodyCanMakeIsToldBeforePlaying)
+{
+    writeGame();
+    const Outcome run = jet("play game --physics falling --snapshot picture.xyz --state state.json");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_THAT(run.err, HasSubstr("picture.xyz: error: No installed plugin provides the exporter for .xyz files"));
+    EXPECT_FALSE(exists("state.json"));
+    EXPECT_EQ(jet("play game --physics falling --snapshot picture.count").code, 0);
+    EXPECT_EQ(read("picture.count"), "2\n");
+}
+
+}  // namespace
+}  // namespace jet::test
