@@ -158,7 +158,7 @@ interface Spring {
 interface JetEvent {
     type: EventType;
 }
-/** onStep (before the step), onPrePaint, onPostPaint. @since 0.1 */
+/** onStep comes before a step; onPrePaint and then onPostPaint after it and its collisions. @since 0.1 */
 interface StepEvent extends JetEvent {
     /** Steps made so far. */
     step: number;

@@ -21,6 +21,21 @@ TEST_F(ScriptEventsTest, ListenersAreCalledInTheOrderOfAddingAndRemoved)
     EXPECT_EQ(printed(), (Lines{"first", "second", "third", "first", "third"}));
 }
 
+TEST_F(ScriptEventsTest, AStepIsFollowedByItsCollisionsAndThenByPaintEvents)
+{
+    body("A", Box({0, 0}, {10, 10}));
+    body("B", Box({5, 5}, {15, 15}));
+    script("Script", R"(
+        ['onPostPaint', 'onPrePaint', 'onBodyCollision', 'onStep'].forEach(function (type) {
+            JetSystem.addEventListener(type, function (e) { print(e.type, ctx.step); });
+        });
+    )");
+    play();
+    step(2);
+    EXPECT_EQ(printed(), (Lines{"onStep 0", "onBodyCollision 1", "onPrePaint 1", "onPostPaint 1", "onStep 1",
+                                "onBodyCollision 2", "onPrePaint 2", "onPostPaint 2"}));
+}
+
 TEST_F(ScriptEventsTest, ListenersMayAddAndRemoveOthersWhileBeingCalled)
 {
     script("Script", R"(
