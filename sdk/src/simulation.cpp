@@ -99,7 +99,8 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     std::string engineId = options.physics;
     if (engineId.empty()) engineId = scene.setting("physics").as<std::string>();
     PhysicsEngine* engine = catalog.physicsEngine(engineId);
-    if (!engine) return Error("the scene cannot be played: " + catalog.explain(ContributionKind::PhysicsEngine, engineId));
+    if (!engine)
+        return Error("the scene cannot be played: " + catalog.explain(ContributionKind::PhysicsEngine, engineId));
 
     std::unique_ptr<Simulation> simulation(new Simulation);
     auto& d = *simulation->d_;
@@ -132,7 +133,9 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     ScriptEngine* scripts = catalog.scriptEngine("");
     if (!scripts) {
         simulation->print({OutputLine::Kind::Error,
-                           "the scripts do not run: " + catalog.explain(ContributionKind::ScriptEngine, ""), {}, 0});
+                           "the scripts do not run: " + catalog.explain(ContributionKind::ScriptEngine, ""),
+                           {},
+                           0});
         return simulation;
     }
     d.scripts = scripts->createRuntime(*simulation);
@@ -151,7 +154,11 @@ void Simulation::step()
     if (d.scripts) d.scripts->dispatch(ScriptEvent{ScriptEventKind::Step, {}, {}, {}, {}, {}});
     d.world->step(d.timeStep);
     ++d.steps;
-    if (d.scripts) d.dispatchCollisions();
+    if (!d.scripts) return;
+    d.dispatchCollisions();
+    // Once a step, not once a painted frame: what a listener does must not depend on a window and its refresh rate.
+    d.scripts->dispatch(ScriptEvent{ScriptEventKind::PrePaint, {}, {}, {}, {}, {}});
+    d.scripts->dispatch(ScriptEvent{ScriptEventKind::PostPaint, {}, {}, {}, {}, {}});
 }
 
 std::uint64_t Simulation::stepCount() const { return d_->steps; }
@@ -195,7 +202,8 @@ void Simulation::setTorque(ItemId item, double value)
 {
     d_->torques[item] = value;
     const Item* found = d_->scene->items().find(item);
-    if (found && found->is<TorqueItem>() && actuatorOf(item) != kNoHandle) d_->world->setTorque(actuatorOf(item), -value);
+    if (found && found->is<TorqueItem>() && actuatorOf(item) != kNoHandle)
+        d_->world->setTorque(actuatorOf(item), -value);
 }
 
 double Simulation::torque(ItemId item) const
@@ -211,7 +219,8 @@ void Simulation::key(const KeyEvent& event, bool down)
     setKey(event.key, down);
     if (!d_->scripts) return;
     d_->scripts->dispatch(ScriptEvent{down ? ScriptEventKind::KeyDown : ScriptEventKind::KeyUp, event, {}, {}, {}, {}});
-    if (down && !event.text.empty()) d_->scripts->dispatch(ScriptEvent{ScriptEventKind::KeyTyped, event, {}, {}, {}, {}});
+    if (down && !event.text.empty())
+        d_->scripts->dispatch(ScriptEvent{ScriptEventKind::KeyTyped, event, {}, {}, {}, {}});
 }
 
 void Simulation::setKey(std::string_view key, bool down)
@@ -304,7 +313,8 @@ std::string Simulation::stateJson() const
     const auto pair = [](const Vec2& v) { return Json::array({v.x(), v.y()}); };
     char hashText[17];
     std::snprintf(hashText, sizeof hashText, "%016llx", static_cast<unsigned long long>(hash()));
-    Json state{{"step", d_->steps}, {"time", time()}, {"hash", hashText}, {"items", Json::array()}, {"output", Json::array()}};
+    Json state{
+        {"step", d_->steps}, {"time", time()}, {"hash", hashText}, {"items", Json::array()}, {"output", Json::array()}};
     const BodyStates bodies = d_->world->bodies();
     d_->scene->root().walk([&](const Item& item) {
         const BodyHandle body = bodyOf(item.id());
@@ -320,7 +330,8 @@ std::string Simulation::stateJson() const
                                       {"omega", moves ? bodies.omega[body] : 0.0},
                                       {"bounds", Json::array({box.min.x(), box.min.y(), box.max.x(), box.max.y()})}});
     });
-    state["view"] = Json{{"anchor", pair(d_->view.view.anchor)}, {"scale", d_->view.view.scale}, {"size", pair(d_->view.size)}};
+    state["view"] =
+        Json{{"anchor", pair(d_->view.view.anchor)}, {"scale", d_->view.view.scale}, {"size", pair(d_->view.size)}};
     for (const OutputLine& line : d_->output) state["output"].push_back(line.text);
     return state.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

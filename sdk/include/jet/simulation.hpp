@@ -29,7 +29,7 @@ struct SimulationOptions {
     std::string physics;             ///< engine id; empty: the scene's, else the first installed
     std::uint64_t seed = 1;          ///< for Math.random in scripts
     int threads = 1;
-    Vec2 viewSize{1280, 720};        ///< pixels, as scripts see it
+    Vec2 viewSize{1280, 720};  ///< pixels, as scripts see it
     /// Finds another scene for CC.getScene(name) and playScene; may be empty.
     std::function<const Scene*(std::string_view)> sceneByName;
 };
@@ -51,13 +51,13 @@ struct GameView {
 
 class JET_API Simulation final : public PoseSource {
 public:
-    /// Copies the scene, builds all bodies and runs the scripts. Fails when there is no physics engine. A body that cannot be
-    /// built stays as drawn, with a warning; script errors are printed, not fatal.
+    /// Copies the scene, builds all bodies and runs the scripts. Fails when there is no physics engine. A body that
+    /// cannot be built stays as drawn, with a warning; script errors are printed, not fatal.
     static Result<std::unique_ptr<Simulation>> start(const Scene& scene, SimulationOptions options);
     ~Simulation() override;
 
-    /// One fixed time step: scripts' onStep, physics, collisions to scripts (SPEC PH10). What an engine throws passes through:
-    /// the run is over then.
+    /// One fixed time step: scripts' onStep, physics, then collisions, onPrePaint and onPostPaint to scripts (SPEC PH10).
+    /// What an engine throws passes through: the run is over then.
     void step();
     std::uint64_t stepCount() const;
     /// Simulated seconds.
@@ -142,8 +142,8 @@ struct OutputPrinted {
     OutputLine line;
 };
 
-/// Plays one scene at a time on its own thread, in real time (thesis §2.4.3.8 Animator, SPEC EN8). An exception inside an
-/// engine ends the run with a message (OutputPrinted).
+/// Plays one scene at a time on its own thread, in real time (thesis §2.4.3.8 Animator, SPEC EN8). An exception inside
+/// an engine ends the run with a message (OutputPrinted).
 class JET_API SimulationCenter {
 public:
     using State = SimulationStateChanged::State;
@@ -161,7 +161,8 @@ public:
     State state() const;
     /// The scene being played, as edited; null when stopped.
     const Scene* scene() const;
-    /// A copy of the scene for painting with a frame's poses, with what scripts changed; null when stopped. [owner's thread]
+    /// A copy of the scene for painting with a frame's poses, with what scripts changed; null when stopped. [owner's
+    /// thread]
     const Scene* runningScene() const;
     /// 1 = real time.
     void setSpeed(double factor);
