@@ -2,6 +2,7 @@
 
 #include "canvas/insertion_point.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 namespace jet::host {
@@ -122,6 +123,16 @@ void ToolSession::setCursor(std::string_view name)
         if (known.name == name) cursor_ = QCursor(known.shape);
     }
     surface_.setToolCursor(cursor_);
+}
+
+void ToolSession::switchTool(std::string_view id)
+{
+    const auto tools = editor_.catalog().contributions(ContributionKind::Tool);
+    const auto found =
+        std::find_if(tools.begin(), tools.end(), [&](const Contribution& tool) { return tool.id == id; });
+    if (found == tools.end()) return;
+    // Later: the tool that asks is in the middle of one of its own calls.
+    editor_.events().enqueue([&editor = editor_, tool = found->id] { editor.setActiveTool(tool); });
 }
 
 }  // namespace jet::host

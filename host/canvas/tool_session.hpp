@@ -55,6 +55,7 @@ public:
     void showStatus(std::string text) override { editor_.showStatus(std::move(text)); }
     void setCursor(std::string_view name) override;
     const Properties& options() const override { return options_; }
+    void switchTool(std::string_view id) override;
 
 private:
     /// Calls the tool. What it throws becomes a message, and its open transaction is taken back.

@@ -1,5 +1,7 @@
 #include "skin.hpp"
 
+#include <utility>
+
 namespace jet {
 
 namespace {
@@ -14,7 +16,8 @@ std::vector<Edge> borderEdges(const SoftBodyDef& body)
     for (const auto& ring : body.borders)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Edge edge{ring[i], ring[(i + 1) % ring.size()]};
-            if (edge.a != edge.b && (body.particles[edge.b] - body.particles[edge.a]).squaredNorm() > 1e-18) edges.push_back(edge);
+            if (edge.a != edge.b && (body.particles[edge.b] - body.particles[edge.a]).squaredNorm() > 1e-18)
+                edges.push_back(edge);
         }
     return edges;
 }
@@ -28,7 +31,17 @@ double squaredDistance(const Vec2& p, const Vec2& a, const Vec2& b)
 
 }  // namespace
 
-Skin::Skin(const Path& path, const SoftBodyDef& body) : rest_(path)
+Path splitAtIntermediatePoints(Path path)
+{
+    for (std::size_t c = 0; c < path.contours().size(); ++c)
+        for (std::size_t i = 0; i < path.contours()[c].curveCount(); ++i) {
+            const int count = std::exchange(path.contours()[c].segments[i].intermediate, 0);
+            for (int left = count; left > 0; --left, ++i) path.split(c, i, 1.0 / (left + 1));
+        }
+    return path;
+}
+
+Skin::Skin(const Path& path, const SoftBodyDef& body) : rest_(splitAtIntermediatePoints(path))
 {
     const std::vector<Edge> edges = borderEdges(body);
     const auto bind = [&](const Vec2& p) {
@@ -48,7 +61,7 @@ Skin::Skin(const Path& path, const SoftBodyDef& body) : rest_(path)
         }
         bindings_.push_back(binding);
     };
-    for (const Contour& contour : path.contours())
+    for (const Contour& contour : rest_.contours())
         for (const Segment& segment : contour.segments) bind(segment.point), bind(segment.in), bind(segment.out);
 }
 

@@ -10,13 +10,17 @@
 
 namespace jet {
 
-/// Each point p of the path is kept in the frame of its nearest border edge a-b at rest: p = a + u (b - a) + v perp(b - a).
-/// Exact at rest and under any rigid motion and scaling; smooth in between.
+/// The path with segments in the place of its intermediate points, of the same shape: between two border particles the
+/// drawn curve then has nothing of its own that could dip into what the particles rest on.
+Path splitAtIntermediatePoints(Path path);
+
+/// Each point p of the path is kept in the frame of its nearest border edge a-b at rest: p = a + u (b - a) + v perp(b -
+/// a). Exact at rest and under any rigid motion and scaling; smooth in between.
 class Skin {
 public:
     Skin() = default;
     Skin(const Path& path, const SoftBodyDef& body);
-    /// The path over the body's present particles.
+    /// The path, split at its intermediate points, over the body's present particles.
     Path deformed(std::span<const Vec2> particles) const;
 
 private:
