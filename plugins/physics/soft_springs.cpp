@@ -99,6 +99,13 @@ void SoftSprings::apply(State& state, double h, bool backwards)
     }
 }
 
+bool SoftSprings::anyTorn(Range springs) const
+{
+    for (Index i = springs.first; i < springs.end(); ++i)
+        if (!alive_[i] && a_[i] != b_[i]) return true;
+    return false;
+}
+
 void SoftSprings::applySpring(State& state, Index i, double h)
 {
     if (!alive_[i]) return;

@@ -29,6 +29,8 @@ public:
     void apply(State&, double h, bool backwards);
 
     bool alive(Index spring) const { return alive_[spring] != 0; }
+    /// Springs from a particle to itself never were whole, and never tear.
+    bool anyTorn(Range springs) const;
 
     template <class Archive>
     void archive(Archive& with)

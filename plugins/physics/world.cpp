@@ -76,6 +76,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     for (const AngularSpringDef& spring : def.angularSprings) springs_.add(state_, spring, body.nodes.first);
     body.springs.count = static_cast<Index>(def.springs.size());
     body.angularSprings.count = static_cast<Index>(def.angularSprings.size());
+    shapes_.add(state_, def, handle);
     return finishBody(def.common);
 }
 

@@ -3,6 +3,7 @@
 
 #include "actuators.hpp"
 #include "contact_finder.hpp"
+#include "shape_memory.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
 
@@ -60,6 +61,7 @@ private:
     WorldSettings settings_;
     State state_;
     SoftSprings springs_;
+    ShapeMemory shapes_;
     Actuators actuators_;
     ContactFinder finder_;
     std::vector<ContactPoint> contacts_;

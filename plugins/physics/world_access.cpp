@@ -130,6 +130,7 @@ void World::archive(Self& self, Archive& with)
     with(nodes.omega);
     with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
     self.springs_.archive(with);
+    self.shapes_.archive(with);
     self.actuators_.archive(with);
     with(self.stepForces_);
     with(self.settings_.gravity);

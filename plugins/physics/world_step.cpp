@@ -89,6 +89,7 @@ void World::substep(double h, int index)
         integrateVelocities(state_, settings_, h);
         const bool backwards = index % 2 == 1;
         springs_.apply(state_, h, backwards);
+        shapes_.apply(state_, springs_, h);
         actuators_.applySprings(state_, h, backwards);
     }
     const Stopwatch watch(stats_.solverMs);

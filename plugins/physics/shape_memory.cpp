@@ -1,0 +1,191 @@
+#include "shape_memory.hpp"
+
+#include <numeric>
+
+namespace jet::physics {
+
+namespace {
+
+// The tolerance as a part of the radius of gyration: an eighth of a ball's radius.
+constexpr double kTolerance = 0.18;
+// omega² as a multiple of sum ks / m at the mean particle: springs pushed through each other push back less.
+constexpr double kStiffness = 2;
+// omega h: springs take up to sqrt(2) of the 2 that symplectic Euler allows.
+constexpr double kMostPhase = 0.5;
+constexpr double kDampingRatio = 0.5;
+// R is certain while the fit is better than this part of the fit at rest. A ball turned inside out has a fit near 0.
+constexpr double kLeastFit = 0.2;
+// Springs whose lengths differ by more than this from where their particles are (root mean square) do not remember the
+// shape that was drawn.
+constexpr double kMostStrain = 0.1;
+
+class Groups {
+public:
+    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+    Index of(Index i)
+    {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(Index a, Index b) { parent_[std::max(of(a), of(b))] = std::min(of(a), of(b)); }
+
+private:
+    std::vector<Index> parent_;
+};
+
+struct GroupSprings {
+    std::size_t count = 0;
+    double rates = 0;    // sum of ks (1/m + 1/m)
+    double strain = 0;   // sum of (distance - rest length)²
+    double lengths = 0;  // sum of rest length²
+
+    void add(const SpringDef& spring, const SoftBodyDef& def)
+    {
+        const double off = (def.particles[spring.a] - def.particles[spring.b]).norm() - spring.restLength;
+        ++count;
+        rates += spring.ks * (1 / def.masses[spring.a] + 1 / def.masses[spring.b]);
+        strain += off * off;
+        lengths += spring.restLength * spring.restLength;
+    }
+    /// Fewer than 2n - 3 bars cannot be rigid in the plane (Maxwell's count).
+    bool holdShape(std::size_t particles) const
+    {
+        return particles >= 3 && count + 3 >= 2 * particles && strain <= kMostStrain * kMostStrain * lengths;
+    }
+};
+
+bool acts(const SpringDef& spring) { return spring.a != spring.b && spring.ks > 0; }
+
+bool isNailedDown(const SoftBodyDef& def)
+{
+    return def.common.fixed || std::find(def.movable.begin(), def.movable.end(), 0) != def.movable.end();
+}
+
+}  // namespace
+
+void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle handle)
+{
+    if (isNailedDown(def) || def.borders.empty()) return;
+    Groups groups(def.particles.size());
+    for (const SpringDef& spring : def.springs)
+        if (acts(spring)) groups.join(spring.a, spring.b);
+    std::vector<GroupSprings> springs(def.particles.size());
+    for (const SpringDef& spring : def.springs)
+        if (acts(spring)) springs[groups.of(spring.a)].add(spring, def);
+
+    std::vector<Lattice> lattices(def.particles.size());
+    const Index firstNode = state.bodies[handle].nodes.first;
+    for (Index i = 0; i < def.particles.size(); ++i) {
+        Lattice& lattice = lattices[groups.of(i)];
+        lattice.nodes.push_back(firstNode + i);
+        lattice.rest.push_back(def.particles[i]);
+        lattice.mass += def.masses[i];
+    }
+    for (Index group = 0; group < lattices.size(); ++group) {
+        Lattice& lattice = lattices[group];
+        const std::size_t count = lattice.nodes.size();
+        if (!springs[group].holdShape(count)) continue;
+        Vec2 centre(0, 0);
+        for (std::size_t i = 0; i < count; ++i)
+            centre += state.nodes.mass[lattice.nodes[i]] / lattice.mass * lattice.rest[i];
+        for (std::size_t i = 0; i < count; ++i) {
+            lattice.rest[i] -= centre;
+            lattice.inertia += state.nodes.mass[lattice.nodes[i]] * lattice.rest[i].squaredNorm();
+        }
+        lattice.body = handle;
+        lattice.tolerance = kTolerance * std::sqrt(lattice.inertia / lattice.mass);
+        lattice.rate = kStiffness * springs[group].rates / static_cast<double>(count);
+        if (lattice.inertia > 0) lattices_.push_back(std::move(lattice));
+    }
+}
+
+void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
+{
+    Nodes& nodes = state.nodes;
+    for (Lattice& lattice : lattices_) {
+        const Motion motion = match(nodes, lattice);
+        if (!pull(nodes, lattice, motion, h)) continue;
+        if (springs.anyTorn(state.bodies[lattice.body].springs)) continue;
+        removeNet(nodes, lattice, motion);
+        for (std::size_t i = 0; i < lattice.nodes.size(); ++i)
+            nodes.velocity[lattice.nodes[i]] += elastic_[i] + damping_[i];
+    }
+}
+
+ShapeMemory::Motion ShapeMemory::match(const Nodes& nodes, Lattice& lattice) const
+{
+    Motion motion{Vec2(0, 0), Vec2(0, 0)};
+    for (const Index n : lattice.nodes) {
+        motion.centre += nodes.mass[n] * nodes.position[n];
+        motion.velocity += nodes.mass[n] * nodes.velocity[n];
+    }
+    motion.centre /= lattice.mass;
+    motion.velocity /= lattice.mass;
+    double along = 0, across = 0, momentum = 0;
+    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
+        const Index n = lattice.nodes[i];
+        const Vec2 arm = nodes.position[n] - motion.centre;
+        along += nodes.mass[n] * lattice.rest[i].dot(arm);
+        across += nodes.mass[n] * cross(lattice.rest[i], arm);
+        momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - motion.velocity);
+        motion.inertia += nodes.mass[n] * arm.squaredNorm();
+    }
+    if (motion.inertia > 0) motion.omega = momentum / motion.inertia;
+    motion.fit = std::sqrt(along * along + across * across);
+    motion.certain = motion.fit > kLeastFit * lattice.inertia;
+    if (motion.certain) lattice.rotation = Vec2(along, across) / motion.fit;
+    return motion;
+}
+
+/// Fills elastic_ and damping_ with what draws each particle to its goal; false when all are within the tolerance.
+bool ShapeMemory::pull(const Nodes& nodes, const Lattice& lattice, const Motion& motion, double h)
+{
+    const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));
+    const double damped = std::min(1.0, 2 * kDampingRatio * std::sqrt(rate) * h);
+    elastic_.assign(lattice.nodes.size(), Vec2(0, 0));
+    damping_.assign(lattice.nodes.size(), Vec2(0, 0));
+    bool any = false;
+    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
+        const Index n = lattice.nodes[i];
+        const Vec2 arm = nodes.position[n] - motion.centre;
+        const Vec2 away = rotated(lattice.rotation, lattice.rest[i]) - arm;
+        const double squared = away.squaredNorm();
+        if (!(squared > lattice.tolerance * lattice.tolerance)) continue;
+        any = true;
+        elastic_[i] = h * rate * (1 - lattice.tolerance / std::sqrt(squared)) * away;
+        damping_[i] = -damped * (nodes.velocity[n] - motion.velocity - motion.omega * perpendicular(arm));
+    }
+    return any;
+}
+
+/// Takes the net momentum and angular momentum out of both.
+///
+/// dU/dx through R: the angle of the fit changes by m perpendicular(R q)·dx / fit. Without a certain R, and for the
+/// damping, a rigid motion of the particles as they are; taken out of the damping it can only lower what that leaves
+/// of the energy, as it is its part orthogonal to rigid motions that remains.
+void ShapeMemory::removeNet(const Nodes& nodes, const Lattice& lattice, const Motion& motion)
+{
+    Vec2 pulled(0, 0), damped(0, 0);
+    double pulledTurn = 0, dampedTurn = 0;
+    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
+        const Index n = lattice.nodes[i];
+        const Vec2 arm = nodes.position[n] - motion.centre;
+        pulled += nodes.mass[n] / lattice.mass * elastic_[i];
+        damped += nodes.mass[n] / lattice.mass * damping_[i];
+        pulledTurn += nodes.mass[n] * cross(arm, elastic_[i]);
+        dampedTurn += nodes.mass[n] * cross(arm, damping_[i]);
+    }
+    const double inertia = std::max(motion.inertia, 1e-12 * lattice.inertia);
+    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
+        const Vec2 across = perpendicular(nodes.position[lattice.nodes[i]] - motion.centre);
+        elastic_[i] -= pulled;
+        if (motion.certain) {
+            elastic_[i] -= pulledTurn / motion.fit * perpendicular(rotated(lattice.rotation, lattice.rest[i]));
+        } else {
+            elastic_[i] -= pulledTurn / inertia * across;
+        }
+        damping_[i] -= damped + dampedTurn / inertia * across;
+    }
+}
+
+}  // namespace jet::physics

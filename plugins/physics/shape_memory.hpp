@@ -1,0 +1,65 @@
+// Soft bodies remember their shape: springs know lengths, not sides, so a crushed lattice can rest inside out.
+//
+// Shape matching (Müller, Heidelberger, Teschner, Gross, "Meshless deformations based on shape matching", 2005): the
+// particles x of a lattice have goals g = c + R q, the shape at rest (q from its centre of mass) moved and turned to
+// where they are. Their least squares fit in the plane is closed: R turns by the angle of
+// (sum m q·p, sum m q×p), p = x - c. With d = g - x, particles are pulled to their goals by the potential
+//
+//   U = ½ omega² sum m max(0, |d| - tolerance)²
+//
+// Up to the tolerance only the springs act: ordinary squish stays theirs, and a body at rest is not touched. The
+// forces are the full gradient of U, with what c and R do when x moves: that takes away the net force and the net
+// torque, so U needs no other correction to keep momentum, angular momentum and energy. Moving the particles to their
+// goals outright, as in the paper, was the alternative: unconditionally stable, but with a stiffness that depends on
+// the step.
+#pragma once
+
+#include "soft_springs.hpp"
+
+namespace jet::physics {
+
+class ShapeMemory {
+public:
+    /// Takes the lattices of the body as their shapes. What springs do not hold in shape (ropes, hinges, loose
+    /// particles), what was not built at rest, and what is nailed down has none.
+    void add(const State&, const SoftBodyDef&, BodyHandle);
+
+    /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
+    void apply(State&, const SoftSprings&, double h);
+
+    template <class Archive>
+    void archive(Archive& with)
+    {
+        for (Lattice& lattice : lattices_) with(lattice.rotation);
+    }
+
+private:
+    /// Particles of one body that springs join.
+    struct Lattice {
+        BodyHandle body = kNoHandle;
+        std::vector<Index> nodes;
+        std::vector<Vec2> rest;  // q, scene units
+        double mass = 0;
+        double inertia = 0;          // sum m |q|²
+        double tolerance = 0;        // scene units
+        double rate = 0;             // omega², 1 / s²
+        Vec2 rotation = Vec2(1, 0);  // (cos, sin) of R; stays where it was while no angle fits better than others
+    };
+    /// The rigid motion nearest to that of the particles.
+    struct Motion {
+        Vec2 centre, velocity;
+        double omega = 0;     // rad / s
+        double inertia = 0;   // sum m |p|²
+        double fit = 0;       // sum m (R q)·p; inertia at rest
+        bool certain = true;  // is there a best R?
+    };
+
+    Motion match(const Nodes&, Lattice&) const;
+    bool pull(const Nodes&, const Lattice&, const Motion&, double h);
+    void removeNet(const Nodes&, const Lattice&, const Motion&);
+
+    std::vector<Lattice> lattices_;
+    std::vector<Vec2> elastic_, damping_;  // changes of velocity, one a particle of the lattice at hand
+};
+
+}  // namespace jet::physics

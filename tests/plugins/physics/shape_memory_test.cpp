@@ -1,0 +1,350 @@
+// Soft bodies come back to their shape, whatever crushed them, and by nothing but inner forces.
+#include "lattices.hpp"
+
+#include <cstring>
+#include <functional>
+#include <numeric>
+
+namespace jet::physics::test {
+
+namespace {
+
+constexpr double kGravity = 98;
+constexpr double kFarthest = 0.2;  // from the goal, as a part of the radius of gyration; the pull begins at 0.18
+
+double massOf(const SoftBodyDef& def) { return std::accumulate(def.masses.begin(), def.masses.end(), 0.0); }
+
+std::vector<Vec2> arms(std::span<const Vec2> points, const SoftBodyDef& def)
+{
+    Vec2 centre(0, 0);
+    for (std::size_t i = 0; i < points.size(); ++i) centre += def.masses[i] / massOf(def) * points[i];
+    std::vector<Vec2> all(points.begin(), points.end());
+    for (Vec2& p : all) p -= centre;
+    return all;
+}
+
+/// How far the farthest particle is from its goal, as a part of the radius of gyration.
+double farthest(std::span<const Vec2> points, const SoftBodyDef& def)
+{
+    const auto rest = arms(def.particles, def), now = arms(points, def);
+    double along = 0, across = 0, inertia = 0, most = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        along += def.masses[i] * rest[i].dot(now[i]);
+        across += def.masses[i] * cross(rest[i], now[i]);
+        inertia += def.masses[i] * rest[i].squaredNorm();
+    }
+    const Affine turn = Affine::rotation(std::atan2(across, along));
+    for (std::size_t i = 0; i < rest.size(); ++i) most = std::max(most, (turn.linear() * rest[i] - now[i]).norm());
+    return most / std::sqrt(inertia / massOf(def));
+}
+
+/// The soft body of a world that was added first. A snapshot begins with the positions and velocities of all nodes.
+struct Particles {
+    std::vector<Vec2> position, velocity;
+
+    Particles(const PhysicsWorld& world, const SoftBodyDef& def)
+        : position(def.particles.size()), velocity(def.particles.size())
+    {
+        exchange(world.save(),
+                 [](void* ours, const std::byte* theirs, std::size_t size) { std::memcpy(ours, theirs, size); });
+    }
+    void putInto(PhysicsWorld& world)
+    {
+        auto bytes = world.save();
+        exchange(bytes, [](const void* ours, std::byte* theirs, std::size_t size) { std::memcpy(theirs, ours, size); });
+        world.restore(bytes);
+    }
+
+private:
+    template <class Bytes, class Copy>
+    void exchange(Bytes&& bytes, Copy&& copy)
+    {
+        std::uint64_t nodes = 0;
+        std::memcpy(&nodes, bytes.data(), sizeof nodes);
+        const std::size_t size = position.size() * sizeof(Vec2);
+        copy(position.data(), bytes.data() + sizeof nodes, size);
+        copy(velocity.data(), bytes.data() + 2 * sizeof nodes + nodes * sizeof(Vec2), size);
+    }
+};
+
+/// Changes where the particles are, as a function of where they are.
+template <class Map>
+void deform(PhysicsWorld& world, const SoftBodyDef& def, Map&& map)
+{
+    Particles particles(world, def);
+    for (Vec2& p : particles.position) p = map(p);
+    particles.putInto(world);
+}
+
+/// Of motion, springs and height; what the memory of the shape stores would come on top.
+double energy(const PhysicsWorld& world, const SoftBodyDef& def, double gravity)
+{
+    const Particles now(world, def);
+    double sum = 0;
+    for (std::size_t i = 0; i < def.particles.size(); ++i)
+        sum += def.masses[i] * (0.5 * now.velocity[i].squaredNorm() - gravity * now.position[i].y());
+    for (const SpringDef& spring : def.springs)
+        sum +=
+            0.5 * spring.ks * std::pow((now.position[spring.a] - now.position[spring.b]).norm() - spring.restLength, 2);
+    return sum;
+}
+
+struct Drop {
+    const char* name;
+    SoftBodyDef def;
+    std::vector<RigidBodyDef> scenery;
+};
+
+std::vector<Drop> drops()
+{
+    std::vector<Drop> all;
+    for (const double radius : {20.0, 30.0, 60.0})
+        for (const double height : {100.0, 300.0, 600.0})
+            all.push_back({"ball", defaultBall({0, -height}, radius), {ground(0)}});
+    for (const double size : {40.0, 60.0}) {
+        all.push_back({"square", square({0, -300}, size), {ground(0)}});
+        all.push_back({"banana", banana({0, -300}, size), {ground(0)}});
+        all.push_back({"banana from high up", banana({0, -600}, size), {ground(0)}});
+    }
+    const RigidBodyDef blunt = fixed({{{0, -100}, {60, 0}, {-60, 0}}}), sharp = fixed({{{0, -100}, {15, 0}, {-15, 0}}});
+    const RigidBodyDef slot = fixed({{{-100, -150}, {0, 0}, {100, -150}, {100, 50}, {-100, 50}}});
+    for (const double radius : {20.0, 30.0, 60.0}) {
+        all.push_back({"ball on an apex", defaultBall({0, -400}, radius), {blunt, ground(0, 20000)}});
+        all.push_back({"ball on a spike", defaultBall({3, -400}, radius), {sharp, ground(0, 20000)}});
+        all.push_back({"ball into a slot", defaultBall({0, -400}, radius), {slot}});
+    }
+    return all;
+}
+
+TEST(ShapeMemory, DroppedBodiesEndInTheirShape)
+{
+    for (const Drop& drop : drops()) {
+        auto world = makeWorld({0, kGravity});
+        world->addSoftBody(drop.def);
+        for (const RigidBodyDef& body : drop.scenery) world->addRigidBody(body);
+        run(*world, 15);
+        EXPECT_GT(areaRatio(*world, 0, drop.def), 0.85) << drop.name;
+        EXPECT_LT(farthest(pointsOf(*world, 0), drop.def), kFarthest) << drop.name;
+    }
+}
+
+TEST(ShapeMemory, ABallPressedFlatPopsOutInHalfASecond)
+{
+    for (const double radius : {20.0, 30.0, 60.0}) {
+        const SoftBodyDef def = defaultBall({0, -radius}, radius);
+        auto world = makeWorld({0, kGravity});
+        world->addSoftBody(def);
+        world->addRigidBody(ground(0));
+        // All below the upper third is pushed up, through the middle.
+        const double fold = -1.3 * radius;
+        deform(*world, def, [&](const Vec2& p) { return Vec2(p.x(), std::min(p.y(), fold - 0.3 * (p.y() - fold))); });
+        ASSERT_LT(areaRatio(*world, 0, def), 0.25);
+        run(*world, 0.5);
+        EXPECT_GT(areaRatio(*world, 0, def), 0.85) << "radius " << radius;
+        run(*world, 10);
+        EXPECT_GT(areaRatio(*world, 0, def), 0.95) << "radius " << radius;
+    }
+}
+
+TEST(ShapeMemory, BodiesUnfoldEvenWhereNoRotationFitsBest)
+{
+    const auto mirrored = [](const Vec2& p) { return Vec2(p.x(), -p.y()); };
+    const auto flat = [](const Vec2& p) { return Vec2(p.x(), 0); };
+    const auto point = [](const Vec2&) { return Vec2(0, 0); };
+    for (const SoftBodyDef& def : {defaultBall({0, 0}, 30), square({0, 0}, 50), banana({0, 0}, 40)}) {
+        for (const std::function<Vec2(const Vec2&)>& map :
+             {std::function<Vec2(const Vec2&)>(mirrored), {flat}, {point}}) {
+            auto world = makeWorld({0, 0});
+            world->addSoftBody(def);
+            deform(*world, def, map);
+            run(*world, 5);
+            EXPECT_GT(areaRatio(*world, 0, def), 0.95);
+            EXPECT_LT(farthest(pointsOf(*world, 0), def), kFarthest);
+        }
+    }
+}
+
+TEST(ShapeMemory, AnUndeformedBodyIsNotTouched)
+{
+    const SoftBodyDef def = defaultBall({5, -70}, 30);
+    auto world = makeWorld({0, 0});
+    world->addSoftBody(def);
+    run(*world, 20);
+    for (std::size_t i = 0; i < def.particles.size(); ++i) EXPECT_EQ(pointsOf(*world, 0)[i], def.particles[i]);
+}
+
+TEST(ShapeMemory, MomentumAndAngularMomentumAreKept)
+{
+    for (const double fold : {1.0, 0.3, -0.2, -1.0}) {
+        auto world = makeWorld({0, 0});
+        SoftBodyDef def = defaultBall({0, 0}, 30);
+        def.common.velocity = {12, -7};
+        def.common.omega = 3;
+        for (std::size_t i = 0; i < def.masses.size(); ++i) def.masses[i] *= 1 + 0.1 * static_cast<double>(i % 5);
+        world->addSoftBody(def);
+        deform(*world, def, [&](const Vec2& p) { return Vec2(p.x() * 1.2, p.y() > 5 ? fold * p.y() : p.y()); });
+        const auto momenta = [&] {
+            const Particles now(*world, def);
+            const auto arm = arms(now.position, def);
+            Vec2 linear(0, 0);
+            double angular = 0;
+            for (std::size_t i = 0; i < arm.size(); ++i) {
+                linear += def.masses[i] * now.velocity[i];
+                angular += def.masses[i] * cross(arm[i], now.velocity[i]);
+            }
+            return std::pair(linear, angular);
+        };
+        const auto [linear, angular] = momenta();
+        for (int i = 0; i < 120; ++i) {
+            world->step(kStep);
+            const auto [nowLinear, nowAngular] = momenta();
+            ASSERT_LT((nowLinear - linear).norm(), 1e-9 * linear.norm()) << "fold " << fold << " step " << i;
+            ASSERT_NEAR(nowAngular, angular, 1e-9 * std::abs(angular)) << "fold " << fold << " step " << i;
+        }
+    }
+}
+
+TEST(ShapeMemory, EnergyNeverGrowsInTwentySecondsOfBouncing)
+{
+    for (const double kd : {0.0, 0.3}) {
+        for (const double radius : {20.0, 30.0, 60.0}) {
+            SoftBodyDef def = defaultBall({0, -600}, radius);
+            for (SpringDef& spring : def.springs) spring.kd = kd;
+            auto world = makeWorld({0, kGravity}, 0.6, 0);
+            world->addSoftBody(def);
+            world->addRigidBody(ground(0));
+            // Symplectic Euler's energy sways by a part of what swings in the springs; a second's highest shows the
+            // trend.
+            double before = energy(*world, def, kGravity);
+            for (int second = 0; second < 20; ++second) {
+                double most = 0;
+                for (int i = 0; i < 60; ++i) {
+                    world->step(kStep);
+                    most = std::max(most, energy(*world, def, kGravity));
+                }
+                EXPECT_LE(most, 1.002 * before) << "radius " << radius << " kd " << kd << " second " << second;
+                before = most;
+            }
+        }
+    }
+}
+
+TEST(ShapeMemory, WhatUnfoldingSetsFreeIsWhatFoldingStored)
+{
+    // Without damping in the springs, a mirrored ball swings for long; it must not swing ever wider.
+    SoftBodyDef def = defaultBall({0, 0}, 30);
+    for (SpringDef& spring : def.springs) spring.kd = 0;
+    for (const double turn : {0.0, 1.0, 2.5}) {
+        auto world = makeWorld({0, 0});
+        def.common.omega = turn;
+        world->addSoftBody(def);
+        deform(*world, def, [&](const Vec2& p) { return Vec2(p.x(), -p.y()); });
+        double first = 0, last = 0;
+        for (int i = 0; i < 20 * 60; ++i) {
+            world->step(kStep);
+            const double now = energy(*world, def, 0);
+            if (i < 60) first = std::max(first, now);
+            if (i >= 60) last = std::max(last, now);
+        }
+        EXPECT_LE(last, first);
+    }
+}
+
+TEST(ShapeMemory, StiffAndHeavySpringsStayStable)
+{
+    for (const double ks : {0.1, 1e3, 1e6, 1e9}) {
+        const SoftBodyDef def = defaultBall({0, 0}, 30, ks);
+        auto world = makeWorld({0, 0});
+        world->addSoftBody(def);
+        deform(*world, def, [](const Vec2& p) { return Vec2(p.x(), -p.y()); });
+        run(*world, 20);
+        EXPECT_GT(areaRatio(*world, 0, def), 0.85) << "ks " << ks;
+        EXPECT_TRUE(allFinite(*world));
+    }
+}
+
+/// Runs a folded body for a second; does its area come back?
+bool unfolds(const SoftBodyDef& def)
+{
+    auto world = makeWorld({0, 0});
+    world->addSoftBody(def);
+    deform(*world, def, [](const Vec2& p) { return Vec2(p.x(), -p.y()); });
+    run(*world, 1);
+    return areaRatio(*world, 0, def) > 0;
+}
+
+TEST(ShapeMemory, BodiesWithoutAShapeOfTheirOwnAreLeftAlone)
+{
+    const SoftBodyDef ball = defaultBall({0, 0}, 30);
+    EXPECT_TRUE(unfolds(ball));
+
+    SoftBodyDef torn = ball;
+    torn.springs[3].restLength *= 0.9;
+    torn.springs[3].tearRatio = 1.05;
+    EXPECT_FALSE(unfolds(torn)) << "a torn spring";
+    SoftBodyDef loose = ball;
+    loose.springs.clear();
+    EXPECT_FALSE(unfolds(loose)) << "no springs";
+    SoftBodyDef hoop = ball;
+    std::erase_if(hoop.springs,
+                  [](const SpringDef& spring) { return spring.a >= 24 || spring.b != (spring.a + 1) % 24; });
+    EXPECT_FALSE(unfolds(hoop)) << "a ring of links has no shape";
+    SoftBodyDef nailed = ball;
+    nailed.movable.assign(nailed.particles.size(), 1);
+    nailed.movable.back() = 0;
+    EXPECT_FALSE(unfolds(nailed)) << "an immovable particle";
+    SoftBodyDef swollen = ball;
+    for (SpringDef& spring : swollen.springs) spring.restLength *= 1.3;
+    EXPECT_FALSE(unfolds(swollen)) << "not built at rest";
+}
+
+TEST(ShapeMemory, PiecesOfOneBodyKeepTheirShapesNotTheirPlaces)
+{
+    SoftBodyDef def = defaultBall({0, 0}, 30);
+    const SoftBodyDef other = defaultBall({200, 0}, 20);
+    const auto shift = static_cast<std::uint32_t>(def.particles.size());
+    def.particles.insert(def.particles.end(), other.particles.begin(), other.particles.end());
+    def.masses.insert(def.masses.end(), other.masses.begin(), other.masses.end());
+    for (SpringDef spring : other.springs) {
+        spring.a += shift, spring.b += shift;
+        def.springs.push_back(spring);
+    }
+    auto world = makeWorld({0, 0});
+    world->addSoftBody(def);
+    const auto apart = [](const Vec2& p) { return p.x() > 100 ? Vec2(p.x() + 300, p.y() - 80) : p; };
+    deform(*world, def, apart);
+    run(*world, 2);
+    for (std::size_t i = 0; i < def.particles.size(); ++i)
+        EXPECT_NEAR((pointsOf(*world, 0)[i] - apart(def.particles[i])).norm(), 0, 1e-9);
+}
+
+TEST(ShapeMemory, AFoldedBodyIsRestoredBitForBit)
+{
+    const SoftBodyDef def = defaultBall({0, -60}, 30);
+    const auto make = [&] {
+        auto world = makeWorld({0, kGravity});
+        world->addSoftBody(def);
+        world->addRigidBody(ground(0));
+        return world;
+    };
+    auto world = make();
+    // Turned, then folded to where no rotation fits: the one it had is part of the state.
+    world->setOmega(0, 4);
+    run(*world, 0.3);
+    const std::uint64_t before = world->hash();
+    deform(*world, def, [](const Vec2& p) { return Vec2(p.x(), -120 - p.y()); });
+    EXPECT_NE(world->hash(), before);
+    const auto saved = world->save();
+    auto equal = make();
+    equal->restore(saved);
+    EXPECT_EQ(equal->hash(), world->hash());
+    for (int i = 0; i < 200; ++i) {
+        world->step(kStep);
+        equal->step(kStep);
+        ASSERT_EQ(equal->hash(), world->hash()) << "step " << i;
+    }
+}
+
+}  // namespace
+
+}  // namespace jet::physics::test
