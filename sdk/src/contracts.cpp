@@ -65,8 +65,9 @@ const PropertyTable& Tool::options() const
 
 std::string_view manifestKey(ContributionKind kind)
 {
-    static constexpr std::string_view keys[] = {"tools",     "effects",        "itemTypes",     "importers", "exporters",
-                                                "physicsEngines", "scriptEngines", "panels", "commands"};
+    static constexpr std::string_view keys[] = {"tools",         "effects",   "itemTypes",
+                                                "importers",     "exporters", "physicsEngines",
+                                                "scriptEngines", "panels",    "commands"};
     return keys[static_cast<int>(kind)];
 }
 

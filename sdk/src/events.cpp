@@ -1,5 +1,6 @@
-// Listeners of one (sender, type) pair form a channel; a hash table finds it. Delivery walks the channel's slots, so its cost
-// does not depend on how many listeners there are elsewhere. Slots freed during delivery are reused only after it ended.
+// Listeners of one (sender, type) pair form a channel; a hash table finds it. Delivery walks the channel's slots, so
+// its cost does not depend on how many listeners there are elsewhere. Slots freed during delivery are reused only after
+// it ended.
 #include <jet/events.hpp>
 
 #include <algorithm>
@@ -76,8 +77,8 @@ struct EventsCenter::Private {
         sweep(key);
     }
 
-    // Frees the slots of those who left, once they are many or still hold their handlers. Handlers may own objects that end subscriptions of their
-    // own: they are destroyed last, when the channel is in order again.
+    // Frees the slots of those who left, once they are many or still hold their handlers. Handlers may own objects that
+    // end subscriptions of their own: they are destroyed last, when the channel is in order again.
     void sweep(const Key& key)
     {
         const auto found = channels.find(key);
@@ -212,7 +213,10 @@ void EventsCenter::setWakeUp(std::function<void()> wakeUp)
     d_->wakeUp = std::move(wakeUp);
 }
 
-void EventsCenter::setExceptionHandler(std::function<void(std::exception_ptr)> handler) { d_->onException = std::move(handler); }
+void EventsCenter::setExceptionHandler(std::function<void(std::exception_ptr)> handler)
+{
+    d_->onException = std::move(handler);
+}
 std::size_t EventsCenter::listenerCount() const { return d_->listeners; }
 
 }  // namespace jet

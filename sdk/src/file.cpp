@@ -78,7 +78,8 @@ Result<std::string> readFile(const fs::path& file)
     if (in.get() < 0) return systemError(file, "cannot be opened", errno);
     struct stat info {};
     if (::fstat(in.get(), &info) != 0) return systemError(file, "cannot be read", errno);
-    if (S_ISDIR(info.st_mode)) return Error("is a folder, not a file; name a file in it", Location{file.string(), 0, 0});
+    if (S_ISDIR(info.st_mode))
+        return Error("is a folder, not a file; name a file in it", Location{file.string(), 0, 0});
     std::string content;
     content.reserve(static_cast<std::size_t>(std::max<off_t>(info.st_size, 0)) + 1);
     char buffer[1 << 16];
@@ -103,12 +104,12 @@ Result<void> writeFileAtomically(const fs::path& file, std::span<const std::byte
     const bool exists = ::stat(target.c_str(), &old) == 0;
     if (exists && !S_ISREG(old.st_mode)) return writeInto(file, content);
     // A read-only target is a wish to keep it: rename() alone would replace it.
-    if (exists && ::access(target.c_str(), W_OK) != 0)
-        return systemError(file, "cannot be written", errno);
+    if (exists && ::access(target.c_str(), W_OK) != 0) return systemError(file, "cannot be written", errno);
     if (exists && (old.st_mode & 0222) == 0) return systemError(file, "cannot be written", EACCES);
     const mode_t mode = exists ? old.st_mode & 07777 : 0666;
 
-    const fs::path temporary = target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part");
+    const fs::path temporary =
+        target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part");
     Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode));
     if (out.get() < 0) return systemError(file, "cannot be written", errno);
     const auto giveUp = [&](int code) {

@@ -57,8 +57,8 @@ std::size_t Item::index() const
 {
     if (!parent_) return 0;
     const auto& all = parent_->children_;
-    return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), [this](const auto& c) { return c.get() == this; }) -
-                                    all.begin());
+    return static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(), [this](const auto& c) { return c.get() == this; }) - all.begin());
 }
 
 const Item* Item::sibling() const

@@ -1,4 +1,5 @@
-// The item types every scene knows (SPEC IT1-IT8): their properties, their look while editing, what they add to a simulation.
+// The item types every scene knows (SPEC IT1-IT8): their properties, their look while editing, what they add to a
+// simulation.
 #include <jet/catalog.hpp>
 #include <jet/item_type.hpp>
 
@@ -88,13 +89,14 @@ public:
 class AngularSpringType final : public PlainType {
 public:
     AngularSpringType()
-        : PlainType("Angular spring",
-                    PropertyTable{
-                        real("ks", "Stiffness ks", 1000).in("torque/rad").range(0, 1e12),
-                        real("kd", "Damping kd", 10).in("torque·s/rad").range(0, 1e12),
-                        flag("rest-as-drawn", "Rest angle as drawn", true),
-                        real("rest-angle", "Rest angle", 0).in("rad").range(-4 * std::numbers::pi, 4 * std::numbers::pi),
-                    })
+        : PlainType(
+              "Angular spring",
+              PropertyTable{
+                  real("ks", "Stiffness ks", 1000).in("torque/rad").range(0, 1e12),
+                  real("kd", "Damping kd", 10).in("torque·s/rad").range(0, 1e12),
+                  flag("rest-as-drawn", "Rest angle as drawn", true),
+                  real("rest-angle", "Rest angle", 0).in("rad").range(-4 * std::numbers::pi, 4 * std::numbers::pi),
+              })
     {
     }
     void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
@@ -137,10 +139,12 @@ public:
     }
     void build(const Item& item, WorldBuilder& builder) const override
     {
-        if (item.path().isEmpty()) return builder.warn(item, "a torque needs a path to tell where it acts; it does nothing");
+        if (item.path().isEmpty())
+            return builder.warn(item, "a torque needs a path to tell where it acts; it does nothing");
         TorqueActuatorDef def;
         def.at = builder.anchor(item, item.path().bounds().center());
-        if (def.at.body == kNoHandle) return builder.warn(item, "no body lies under the torque's centre; it does nothing");
+        if (def.at.body == kNoHandle)
+            return builder.warn(item, "no body lies under the torque's centre; it does nothing");
         def.value = -get<double>(item, "value");  // the world counts clockwise on screen
         builder.bind(item, builder.world().addTorque(def));
     }
@@ -171,7 +175,8 @@ const std::array<BuiltIn, 8>& builtIns()
         {ShapeItem::type, std::make_unique<ShapeType>("Shape", PropertyTable{})},
         {BodyItem::type, std::make_unique<ShapeType>("Body", bodyProperties())},
         {ScriptItem::type,
-         std::make_unique<PlainType>("Script", PropertyTable{text("code", "Code", "", true).says("JavaScript, run at play.")})},
+         std::make_unique<PlainType>("Script",
+                                     PropertyTable{text("code", "Code", "", true).says("JavaScript, run at play.")})},
         {SpringItem::type, std::make_unique<SpringType>()},
         {RSpringItem::type, std::make_unique<AngularSpringType>()},
         {TorqueItem::type, std::make_unique<TorqueType>()},

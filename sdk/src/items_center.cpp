@@ -136,30 +136,31 @@ std::unique_ptr<Item> ItemsCenter::Private::take(ItemId id)
 void ItemsCenter::Private::apply(Change& change)
 {
     using M = Item::Mutator;
-    std::visit(Overloaded{
-                   [&](ItemAdded& c) { insert(c.parent, c.index, std::move(c.detached)); },
-                   [&](ItemRemoved& c) { c.detached = take(c.item); },
-                   [&](ItemMoved& c) {
-                       auto item = M::take(get(c.oldParent), c.oldIndex);
-                       M::insert(get(c.newParent), c.newIndex, std::move(item));
-                   },
-                   [&](PathChanged& c) { M::setPath(get(c.item), c.after); },
-                   [&](PropertyChanged& c) { M::setProperty(get(c.item), c.property, c.after); },
-                   [&](TypeChanged& c) { M::setType(get(c.item), c.after); },
-                   [&](EffectAdded& c) {
-                       auto& effects = M::effects(get(c.item));
-                       effects.insert(effects.begin() + static_cast<std::ptrdiff_t>(c.index), c.effect);
-                   },
-                   [&](EffectRemoved& c) {
-                       auto& effects = M::effects(get(c.item));
-                       effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(c.index));
-                   },
-                   [&](EffectMoved& c) { moveElement(M::effects(get(c.item)), c.from, c.to); },
-                   [&](EffectPropertyChanged& c) { setEffectProperty(M::effects(get(c.item))[c.index], c.property, c.after); },
-                   [&](ScenePropertyChanged& c) { setSceneSetting(scene.settings_, c.property, c.after); },
-                   [&](MaterialsChanged& c) { scene.materials_ = c.after; },
-               },
-               change);
+    std::visit(
+        Overloaded{
+            [&](ItemAdded& c) { insert(c.parent, c.index, std::move(c.detached)); },
+            [&](ItemRemoved& c) { c.detached = take(c.item); },
+            [&](ItemMoved& c) {
+                auto item = M::take(get(c.oldParent), c.oldIndex);
+                M::insert(get(c.newParent), c.newIndex, std::move(item));
+            },
+            [&](PathChanged& c) { M::setPath(get(c.item), c.after); },
+            [&](PropertyChanged& c) { M::setProperty(get(c.item), c.property, c.after); },
+            [&](TypeChanged& c) { M::setType(get(c.item), c.after); },
+            [&](EffectAdded& c) {
+                auto& effects = M::effects(get(c.item));
+                effects.insert(effects.begin() + static_cast<std::ptrdiff_t>(c.index), c.effect);
+            },
+            [&](EffectRemoved& c) {
+                auto& effects = M::effects(get(c.item));
+                effects.erase(effects.begin() + static_cast<std::ptrdiff_t>(c.index));
+            },
+            [&](EffectMoved& c) { moveElement(M::effects(get(c.item)), c.from, c.to); },
+            [&](EffectPropertyChanged& c) { setEffectProperty(M::effects(get(c.item))[c.index], c.property, c.after); },
+            [&](ScenePropertyChanged& c) { setSceneSetting(scene.settings_, c.property, c.after); },
+            [&](MaterialsChanged& c) { scene.materials_ = c.after; },
+        },
+        change);
 }
 
 void ItemsCenter::Private::make(Change change)
@@ -191,7 +192,9 @@ void ItemsCenter::Private::revert(Change& change)
                        effects.insert(effects.begin() + static_cast<std::ptrdiff_t>(c.index), c.effect);
                    },
                    [&](EffectMoved& c) { moveElement(M::effects(get(c.item)), c.to, c.from); },
-                   [&](EffectPropertyChanged& c) { setEffectProperty(M::effects(get(c.item))[c.index], c.property, c.before); },
+                   [&](EffectPropertyChanged& c) {
+                       setEffectProperty(M::effects(get(c.item))[c.index], c.property, c.before);
+                   },
                    [&](ScenePropertyChanged& c) { setSceneSetting(scene.settings_, c.property, c.before); },
                    [&](MaterialsChanged& c) { scene.materials_ = c.before; },
                },
@@ -216,9 +219,8 @@ void ItemsCenter::Private::revertAll()
 void ItemsCenter::Private::setSelection(std::vector<ItemId> items)
 {
     std::unordered_set<std::uint64_t> known;
-    std::erase_if(items, [&](ItemId id) {
-        return id == kRootId || !byId.contains(id.value) || !known.insert(id.value).second;
-    });
+    std::erase_if(
+        items, [&](ItemId id) { return id == kRootId || !byId.contains(id.value) || !known.insert(id.value).second; });
     if (items == selection) return;
     selection = std::move(items);
     selected = std::move(known);
@@ -269,10 +271,7 @@ const Item* ItemsCenter::find(ItemId id) const
 std::size_t ItemsCenter::itemCount() const { return d_->byId.size() - 1; }
 const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection; }
 
-bool ItemsCenter::isSelected(ItemId id) const
-{
-    return d_->selected.contains(id.value);
-}
+bool ItemsCenter::isSelected(ItemId id) const { return d_->selected.contains(id.value); }
 
 void ItemsCenter::setSelection(std::vector<ItemId> items) { d_->setSelection(std::move(items)); }
 

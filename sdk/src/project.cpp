@@ -21,7 +21,8 @@ void collectScenes(const Filter& filter, std::vector<Scene*>& scenes)
 bool eraseScene(Filter& filter, const Scene& scene)
 {
     if (std::erase_if(filter.scenes, [&](const auto& s) { return s.get() == &scene; }) > 0) return true;
-    return std::any_of(filter.filters.begin(), filter.filters.end(), [&](auto& child) { return eraseScene(*child, scene); });
+    return std::any_of(filter.filters.begin(), filter.filters.end(),
+                       [&](auto& child) { return eraseScene(*child, scene); });
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ public:
     {
         const pugi::xml_node root = source_.document.document_element();
         if (std::string_view(root.name()) != "jet-project")
-            source_.fail(root, "a project file starts with <jet-project>, this one with <" + std::string(root.name()) + ">");
+            source_.fail(root,
+                         "a project file starts with <jet-project>, this one with <" + std::string(root.name()) + ">");
         if (source_.required(root, "version") != "1")
             source_.fail(root, "this project has format version " + std::string(root.attribute("version").value()) +
                                    "; this JET reads version 1: open it with a newer JET");
@@ -82,17 +83,19 @@ private:
         const std::string relative(source_.required(node, "file"));
         const fs::path inside = fs::path(relative).lexically_normal();
         if (inside.is_absolute() || inside.begin() == inside.end() || *inside.begin() == "..")
-            source_.fail(node, "the scene file '" + relative + "' lies outside the project's folder; keep scenes inside it");
+            source_.fail(node,
+                         "the scene file '" + relative + "' lies outside the project's folder; keep scenes inside it");
         if (!names_.insert(name).second) source_.fail(node, "there are two scenes called '" + name + "'; rename one");
         if (!files_.insert(inside).second) source_.fail(node, "two scenes share the file '" + relative + "'");
         const fs::path file = project_.file_.parent_path() / inside;
         std::error_code ignored;
         if (!fs::exists(file, ignored))
-            source_.fail(node, "the scene file '" + relative + "' is missing; restore it, or remove this line to go on without '" +
-                                   name + "'");
+            source_.fail(node, "the scene file '" + relative +
+                                   "' is missing; restore it, or remove this line to go on without '" + name + "'");
         auto text = readFile(file);
         if (!text) throw Failure(text.error());
-        auto scene = readSceneText(std::move(*text), file.string(), project_.events_, project_.catalog_, project_.notes_);
+        auto scene =
+            readSceneText(std::move(*text), file.string(), project_.events_, project_.catalog_, project_.notes_);
         if (!scene) throw Failure(scene.error());
         (*scene)->setName(name);
         (*scene)->undoRedo().markClean();

@@ -15,7 +15,8 @@ class ProjectWriter {
 public:
     explicit ProjectWriter(Project& project) : project_(project), folder_(project.file_.parent_path()) {}
 
-    /// Scenes first, project.jet next, then what nobody refers to any more: a crash between leaves a project that opens.
+    /// Scenes first, project.jet next, then what nobody refers to any more: a crash between leaves a project that
+    /// opens.
     Result<void> write(bool everything)
     {
         if (const auto fine = check(); !fine) return fine;
@@ -65,7 +66,8 @@ private:
 
     static Result<void> check(const Filter& filter, int depth)
     {
-        if (depth > kMaximumFilterDepth) return Error("filters are nested more than 100 deep; flatten them, then save again");
+        if (depth > kMaximumFilterDepth)
+            return Error("filters are nested more than 100 deep; flatten them, then save again");
         if (firstUnstorable(filter.name) != std::string::npos)
             return Error("the name of a filter is not UTF-8 or has a NUL in it; rename it, then save again");
         for (const auto& child : filter.filters)
@@ -78,7 +80,8 @@ private:
         std::error_code problem;
         if (!folder.empty()) fs::create_directories(folder, problem);
         if (!problem) return {};
-        return Error("this folder cannot be made: " + problem.message() + "; choose another place", Location{folder.string(), 0, 0});
+        return Error("this folder cannot be made: " + problem.message() + "; choose another place",
+                     Location{folder.string(), 0, 0});
     }
 
     void removeObsolete()
@@ -95,12 +98,14 @@ private:
     {
         std::string safe;
         for (const char c : name) {
-            const bool bad = static_cast<unsigned char>(c) < 0x20 || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
+            const bool bad = static_cast<unsigned char>(c) < 0x20 ||
+                             std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
             safe += bad ? '_' : c;
         }
         while (!safe.empty() && (safe.front() == '.' || safe.front() == ' ')) safe.erase(0, 1);
         std::size_t length = std::min<std::size_t>(safe.size(), 100);
-        while (length > 0 && length < safe.size() && (static_cast<unsigned char>(safe[length]) & 0xc0U) == 0x80U) --length;
+        while (length > 0 && length < safe.size() && (static_cast<unsigned char>(safe[length]) & 0xc0U) == 0x80U)
+            --length;
         safe.resize(length);  // whole characters only
         return safe.empty() ? "scene" : safe;
     }
@@ -129,7 +134,8 @@ private:
         const auto& recorded = project_.recordedUses_;
         if (uses.size() != recorded.size()) return true;
         for (std::size_t i = 0; i < uses.size(); ++i)
-            if (uses[i].id != recorded[i].id || uses[i].version != recorded[i].version || uses[i].count != recorded[i].count)
+            if (uses[i].id != recorded[i].id || uses[i].version != recorded[i].version ||
+                uses[i].count != recorded[i].count)
                 return true;
         return false;
     }

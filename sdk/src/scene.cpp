@@ -5,8 +5,9 @@
 namespace jet {
 
 Scene::Scene(std::string name, EventsCenter& events, Catalog& catalog)
-    : name_(std::move(name)), events_(events), catalog_(catalog), items_(std::make_unique<ItemsCenter>(*this, events, catalog)),
-      undo_(std::make_unique<UndoRedoCenter>(*items_)), effectStates_(std::make_unique<EffectStates>())
+    : name_(std::move(name)), events_(events), catalog_(catalog),
+      items_(std::make_unique<ItemsCenter>(*this, events, catalog)), undo_(std::make_unique<UndoRedoCenter>(*items_)),
+      effectStates_(std::make_unique<EffectStates>())
 {
 }
 
@@ -31,10 +32,7 @@ const PropertyTable& Scene::settingsTable()
     return table;
 }
 
-void Scene::dropEffectStates(ItemId item) const
-{
-    item ? effectStates_->drop(item) : effectStates_->clear();
-}
+void Scene::dropEffectStates(ItemId item) const { item ? effectStates_->drop(item) : effectStates_->clear(); }
 
 Value Scene::setting(std::string_view id) const { return settings_.get(id, settingsTable()); }
 
@@ -98,7 +96,8 @@ Item& SceneBuilder::add(Item& parent, ItemId id, std::string_view type)
 {
     auto& d = *scene_.items().d_;
     if (id && d.byId.contains(id.value))
-        throw Failure(Error("the id " + std::to_string(id.value) + " is used by another item, '" + d.get(id).name() + "'"));
+        throw Failure(
+            Error("the id " + std::to_string(id.value) + " is used by another item, '" + d.get(id).name() + "'"));
     auto item = std::make_unique<Item>(id ? id : ItemId{d.nextId}, type);
     Item& added = *item;
     d.enlist(added);
@@ -114,7 +113,10 @@ void SceneBuilder::setProperties(Item& item, Properties properties)
 {
     Item::Mutator::setProperties(item, std::move(properties));
 }
-void SceneBuilder::addEffect(Item& item, EffectInstance effect) { Item::Mutator::effects(item).push_back(std::move(effect)); }
+void SceneBuilder::addEffect(Item& item, EffectInstance effect)
+{
+    Item::Mutator::effects(item).push_back(std::move(effect));
+}
 void SceneBuilder::setSetting(std::string_view id, Value value) { scene_.settings_.set(id, std::move(value)); }
 void SceneBuilder::setMaterials(MaterialTable materials) { scene_.materials_ = std::move(materials); }
 

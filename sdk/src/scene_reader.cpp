@@ -46,13 +46,15 @@ private:
     // What stands twice would be lost by half.
     void once(const pugi::xml_node& node, const std::string& what)
     {
-        for (pugi::xml_node before = node.previous_sibling(node.name()); before; before = before.previous_sibling(node.name()))
+        for (pugi::xml_node before = node.previous_sibling(node.name()); before;
+             before = before.previous_sibling(node.name()))
             source_.fail(node, what + " stands here twice; keep one of them");
     }
 
     void setOnce(Properties& properties, const pugi::xml_node& node, std::pair<std::string, Value> property)
     {
-        if (properties.find(property.first)) source_.fail(node, "the property '" + property.first + "' stands here twice; keep one of them");
+        if (properties.find(property.first))
+            source_.fail(node, "the property '" + property.first + "' stands here twice; keep one of them");
         properties.set(property.first, std::move(property.second));
     }
 
@@ -65,7 +67,8 @@ private:
                 continue;
             }
             if (scene_.settings().find(child.attribute("id").value()))
-                source_.fail(child, std::string("the property '") + child.attribute("id").value() + "' stands here twice; keep one of them");
+                source_.fail(child, std::string("the property '") + child.attribute("id").value() +
+                                        "' stands here twice; keep one of them");
             auto [id, value] = readProperty(child, &Scene::settingsTable(), "a scene");
             builder_.setSetting(id, std::move(value));
         }
@@ -104,7 +107,8 @@ private:
         const auto index = [&](const pugi::xml_node& pair, const char* attribute) {
             const std::string name(source_.required(pair, attribute));
             const int found = table.find(name);
-            if (found < 0) source_.fail(pair, "there is no material '" + name + "'; declare it with <material name=\"...\"/>");
+            if (found < 0)
+                source_.fail(pair, "there is no material '" + name + "'; declare it with <material name=\"...\"/>");
             return static_cast<std::size_t>(found);
         };
         for (const pugi::xml_node child : node.children("pair")) {
@@ -116,16 +120,19 @@ private:
         builder_.setMaterials(std::move(table));
     }
 
-    std::pair<std::string, Value> readProperty(const pugi::xml_node& node, const PropertyTable* table, std::string_view owner)
+    std::pair<std::string, Value> readProperty(const pugi::xml_node& node, const PropertyTable* table,
+                                               std::string_view owner)
     {
         source_.onlyAttributes(node, {"id"});
         std::string id(source_.required(node, "id"));
         std::string text = source_.textOf(node);
         const PropertySpec* spec = table ? table->find(id) : nullptr;
-        // Without its plugin nobody knows the kind: the text is kept as it is. A property the plugin does not know is kept
-        // too (a newer version of it may have written it).
+        // Without its plugin nobody knows the kind: the text is kept as it is. A property the plugin does not know is
+        // kept too (a newer version of it may have written it).
         if (!spec) {
-            if (table) notes_.push_back({"'" + std::string(owner) + "' has no property '" + id + "'; its text is kept", source_.where(node)});
+            if (table)
+                notes_.push_back({"'" + std::string(owner) + "' has no property '" + id + "'; its text is kept",
+                                  source_.where(node)});
             return {std::move(id), Value(RawText{std::move(text)})};
         }
         auto value = Value::parse(spec->kind, text);
@@ -140,7 +147,8 @@ private:
         std::uint64_t id = 0;
         const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id);
         if (problem != std::errc() || end != text.data() + text.size() || id == 0 || id > kMaximumId)
-            source_.fail(node, "id=\"" + std::string(text) + "\" is not a whole number from 1 to " + std::to_string(kMaximumId));
+            source_.fail(node, "id=\"" + std::string(text) + "\" is not a whole number from 1 to " +
+                                   std::to_string(kMaximumId));
         if (const Item* other = scene_.items().find(ItemId{id}))
             source_.fail(node, "the id " + std::string(text) + " is used twice, here and by '" + other->name() +
                                    "' before; give one of them a number that is free");
@@ -151,7 +159,8 @@ private:
     {
         if (depth > kMaximumDepth) source_.fail(node, "items are nested more than 1000 deep; flatten the groups");
         if (!parent.isContainer() && itemTypeOf(catalog_, parent.type()))
-            source_.fail(node, "an item of type '" + parent.type() + "' cannot hold other items; move this one into a group");
+            source_.fail(node,
+                         "an item of type '" + parent.type() + "' cannot hold other items; move this one into a group");
         source_.onlyAttributes(node, {"type", "id", "name", "visible", "locked"});
         const std::string type(source_.required(node, "type"));
         const ItemId id = readId(node);

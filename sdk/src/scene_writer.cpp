@@ -1,5 +1,5 @@
-// A scene as text (docs/file-format.md): one element a line, properties in alphabetical order, numbers in their shortest exact
-// form, so that equal scenes have equal bytes and a change is a small difference in version control.
+// A scene as text (docs/file-format.md): one element a line, properties in alphabetical order, numbers in their
+// shortest exact form, so that equal scenes have equal bytes and a change is a small difference in version control.
 #include "scene_state.hpp"
 #include "xml_text.hpp"
 

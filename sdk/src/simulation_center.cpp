@@ -1,5 +1,5 @@
-// Plays on a thread of its own. Commands go in through a queue; immutable frames come out behind a mutex held for a pointer
-// swap only. The catalog and the edited scene are used on the owner's thread alone.
+// Plays on a thread of its own. Commands go in through a queue; immutable frames come out behind a mutex held for a
+// pointer swap only. The catalog and the edited scene are used on the owner's thread alone.
 #include "item_mutator.hpp"
 
 #include <jet/simulation.hpp>
@@ -67,7 +67,8 @@ struct SimulationCenter::Private {
         simulation.scene().root().walk([&](const Item& item) {
             if (const Path* pose = simulation.pose(item)) next->poses.emplace_back(item.id(), *pose);
         });
-        std::sort(next->poses.begin(), next->poses.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::sort(next->poses.begin(), next->poses.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
         {
             const std::lock_guard lock(mutex);
             frame = std::move(next);
@@ -184,8 +185,9 @@ struct SimulationCenter::Private {
         scene = &playing;
         display = playing.clone(events);
         for (const OutputLine& line : (*simulation)->output()) events.post(&self, OutputPrinted{line});
-        (*simulation)->setOutputHandler(
-            [this](const OutputLine& line) { onOwner([this, line] { events.post(&self, OutputPrinted{line}); }); });
+        (*simulation)->setOutputHandler([this](const OutputLine& line) {
+            onOwner([this, line] { events.post(&self, OutputPrinted{line}); });
+        });
         (*simulation)->setPropertyHandler([this](ItemId item, std::string_view property, const Value& value) {
             onOwner([this, item, property = std::string(property), value] {
                 if (const Item* found = display ? display->items().find(item) : nullptr)

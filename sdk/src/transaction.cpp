@@ -150,7 +150,8 @@ Properties redirected(const Properties& properties, const IdMap& ids, bool keepO
 void redirectReferences(Item& copy, const IdMap& ids, bool keepOthers)
 {
     Item::Mutator::setProperties(copy, redirected(copy.properties(), ids, keepOthers));
-    for (EffectInstance& effect : Item::Mutator::effects(copy)) effect.properties = redirected(effect.properties, ids, keepOthers);
+    for (EffectInstance& effect : Item::Mutator::effects(copy))
+        effect.properties = redirected(effect.properties, ids, keepOthers);
     for (std::size_t i = 0; i < copy.children().size(); ++i)
         redirectReferences(*Item::Mutator::child(copy, i), ids, keepOthers);
 }
@@ -283,8 +284,9 @@ std::size_t Transaction::addEffect(const Item& item, std::string_view effect, Pr
     if (const std::string reason = found->rejects(item); !reason.empty()) fail(reason);
     const std::size_t index = item.effects().size();
     const ItemsCenter::Private::Savepoint before(d);
-    d.make(EffectAdded{item.id(), index,
-                       EffectInstance{std::string(effect), completed(found->properties(), std::move(properties), effect), true}});
+    d.make(EffectAdded{
+        item.id(), index,
+        EffectInstance{std::string(effect), completed(found->properties(), std::move(properties), effect), true}});
     try {
         found->applied(*this, item);
     } catch (...) {

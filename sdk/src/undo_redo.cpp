@@ -11,7 +11,8 @@ bool joinable(const Change& first, const Change& second)
 {
     if (first.index() != second.index() || changedItem(first) != changedItem(second)) return false;
     if (std::holds_alternative<PathChanged>(first)) return true;
-    if (const auto* a = std::get_if<PropertyChanged>(&first)) return a->property == std::get<PropertyChanged>(second).property;
+    if (const auto* a = std::get_if<PropertyChanged>(&first))
+        return a->property == std::get<PropertyChanged>(second).property;
     if (const auto* a = std::get_if<ScenePropertyChanged>(&first))
         return a->property == std::get<ScenePropertyChanged>(second).property;
     if (const auto* a = std::get_if<EffectPropertyChanged>(&first)) {

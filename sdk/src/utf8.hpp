@@ -8,10 +8,13 @@
 
 namespace jet {
 
-/// Length of the UTF-8 sequence at the start of `text` (RFC 3629: no overlong forms, no surrogates); 0 where there is none.
+/// Length of the UTF-8 sequence at the start of `text` (RFC 3629: no overlong forms, no surrogates); 0 where there is
+/// none.
 inline std::size_t utf8Length(std::string_view text)
 {
-    const auto byte = [&](std::size_t i) -> unsigned { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+    const auto byte = [&](std::size_t i) -> unsigned {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
     const auto tail = [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i)
             if ((byte(i) & 0xc0U) != 0x80U) return false;

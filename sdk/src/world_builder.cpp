@@ -37,7 +37,8 @@ BodyCommon SceneWorldBuilder::common(const Item& item)
     if (!material.empty()) {
         const int index = scene_.materials().find(material);
         if (index < 0) {
-            warn(item, "the scene has no material '" + material + "'; '" + scene_.materials().names().front() + "' is used");
+            warn(item,
+                 "the scene has no material '" + material + "'; '" + scene_.materials().names().front() + "' is used");
         } else {
             common.material = static_cast<std::uint32_t>(index);
         }

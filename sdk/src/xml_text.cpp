@@ -70,7 +70,8 @@ bool isStorableReference(std::string_view text)
     if (hexadecimal) text.remove_prefix(1);
     std::uint32_t code = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), code, hexadecimal ? 16 : 10);
-    if (problem == std::errc::invalid_argument || end == text.data() + text.size() || *end != ';') return true;  // plain text
+    if (problem == std::errc::invalid_argument || end == text.data() + text.size() || *end != ';')
+        return true;  // plain text
     const bool surrogate = code >= 0xd800 && code <= 0xdfff;
     return problem == std::errc() && code != 0 && code <= 0x10ffff && !surrogate;
 }
@@ -95,7 +96,8 @@ Result<void> XmlSource::checkBytes() const
             continue;
         }
         if (!isStorableReference(std::string_view(text).substr(at, 40)))
-            return Error("this reference names no character; remove it", lines.at(file, static_cast<std::ptrdiff_t>(at)));
+            return Error("this reference names no character; remove it",
+                         lines.at(file, static_cast<std::ptrdiff_t>(at)));
         at = text.find("&#", at + 2);
     }
     return {};
@@ -137,7 +139,8 @@ void XmlSource::fail(const pugi::xml_node& node, std::string message) const
 
 void XmlSource::unexpected(const pugi::xml_node& node, const char* instead) const
 {
-    if (node.type() == pugi::node_element) fail(node, "<" + std::string(node.name()) + "> is not known here; " + instead);
+    if (node.type() == pugi::node_element)
+        fail(node, "<" + std::string(node.name()) + "> is not known here; " + instead);
     const std::size_t begin = std::string_view(node.value()).find_first_not_of(" \t\r\n");
     if (begin == std::string_view::npos) return;
     throw Failure(Error(std::string("stray text here; ") + instead,

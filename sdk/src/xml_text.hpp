@@ -37,7 +37,8 @@ struct XmlSource {
     pugi::xml_document document;
 
     XmlSource(std::string name, std::string content) : file(std::move(name)), text(std::move(content)), lines(text) {}
-    /// Parses; the error names the place and what is wrong. Refused are texts that are not UTF-8 or could not be written back.
+    /// Parses; the error names the place and what is wrong. Refused are texts that are not UTF-8 or could not be
+    /// written back.
     Result<void> parse();
     /// All text in the element, pieces and CDATA sections joined; fails where there are other elements in it.
     std::string textOf(const pugi::xml_node& node) const;
@@ -46,7 +47,8 @@ struct XmlSource {
     Result<void> checkBytes() const;
     /// Throws Failure at the node's place.
     [[noreturn]] void fail(const pugi::xml_node& node, std::string message) const;
-    /// For a node that has no meaning where it stands: white space is fine, all else fails, saying what belongs there instead.
+    /// For a node that has no meaning where it stands: white space is fine, all else fails, saying what belongs there
+    /// instead.
     void unexpected(const pugi::xml_node& node, const char* instead) const;
     /// The attribute's text; fails where it is missing.
     std::string_view required(const pugi::xml_node& node, const char* attribute) const;

@@ -22,7 +22,10 @@ protected:
     }
     ~FileTest() override { fs::remove_all(folder); }
     std::string content(const fs::path& file) { return readFile(file).orThrow(); }
-    std::size_t count() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator())); }
+    std::size_t count() const
+    {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+    }
 
     fs::path folder;
 };
@@ -58,7 +61,8 @@ TEST_F(FileTest, AReadOnlyFileIsLeftAlone)
 {
     writeFileAtomically(folder / "a", "1").orThrow();
     fs::permissions(folder / "a", fs::perms::owner_read);
-    EXPECT_THAT(writeFileAtomically(folder / "a", "2").error().text(), HasSubstr("a: error: cannot be written: Permission denied"));
+    EXPECT_THAT(writeFileAtomically(folder / "a", "2").error().text(),
+                HasSubstr("a: error: cannot be written: Permission denied"));
     EXPECT_EQ(content(folder / "a"), "1");
 }
 
@@ -66,7 +70,8 @@ TEST_F(FileTest, AReadOnlyFileIsLeftAlone)
 TEST_F(FileTest, ADeviceIsWrittenIntoAndStaysADevice)
 {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
-    EXPECT_THAT(writeFileAtomically("/dev/full", "x").error().text(), HasSubstr("No space left on device; free some space"));
+    EXPECT_THAT(writeFileAtomically("/dev/full", "x").error().text(),
+                HasSubstr("No space left on device; free some space"));
     EXPECT_TRUE(writeFileAtomically("/dev/null", "x"));
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
@@ -90,7 +95,8 @@ TEST_F(FileTest, FoldersAndMissingPlacesAreNamed)
     EXPECT_THAT(writeFileAtomically(folder, "x").error().text(), HasSubstr("is a folder; name a file to write"));
     EXPECT_THAT(writeFileAtomically(folder / "no" / "a", "x").error().text(), HasSubstr("its folder exists"));
     EXPECT_THAT(readFile(folder).error().text(), HasSubstr("is a folder, not a file"));
-    EXPECT_THAT(readFile(folder / "no").error().text(), HasSubstr("cannot be opened: No such file or directory; check the name"));
+    EXPECT_THAT(readFile(folder / "no").error().text(),
+                HasSubstr("cannot be opened: No such file or directory; check the name"));
 }
 
 TEST_F(FileTest, ExtensionsAreLowerCaseWithoutTheDot)

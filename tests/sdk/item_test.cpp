@@ -102,7 +102,8 @@ TEST_F(ItemTest, EffectsAreFoundByType)
     edit.addEffect(shape, "tint", {{"width", 4}});
     edit.commit();
     ASSERT_NE(shape.effect("tint"), nullptr);
-    EXPECT_EQ(*shape.effect("tint")->properties.find("width"), Value(3.0)) << "the first one, its integer kept as a real";
+    EXPECT_EQ(*shape.effect("tint")->properties.find("width"), Value(3.0))
+        << "the first one, its integer kept as a real";
     EXPECT_EQ(shape.effect("hook"), nullptr);
 }
 

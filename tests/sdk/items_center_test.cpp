@@ -98,7 +98,8 @@ TEST_F(ItemsCenterTest, RestartGoesBackToTheBeginning)
         edit.transform(shape, Affine::translation({0.1 * i, 0.7 * i}));
     }
     edit.commit();
-    EXPECT_EQ(shape.path(), Path::rectangle(Box({0, 0}, {10, 10})).transformed(Affine::translation({0.1 * 99, 0.7 * 99})))
+    EXPECT_EQ(shape.path(),
+              Path::rectangle(Box({0, 0}, {10, 10})).transformed(Affine::translation({0.1 * 99, 0.7 * 99})))
         << "one movement, not a hundred rounded ones";
     EXPECT_EQ(history().position(), 2u);
 }
@@ -186,11 +187,22 @@ const std::vector<Refusal>& refusals()
         {"UnknownTypeToTurnInto", "item type 'spaceship'", [](auto& e, auto&, auto& s) { e.setType(s, "spaceship"); }},
         {"ChildOfAShape", "not a group or layer", [](auto& e, auto&, auto& s) { e.add("shape", s); }},
         {"CopyIntoAShape", "not a group or layer", [](auto& e, auto& l, auto& s) { e.addCopy(l, s); }},
-        {"NaNInANewPath", "not a number", [](auto& e, auto& l, auto&) { e.add("shape", l, Path::line({0, 0}, {kNaN, 1})); }},
-        {"NaNInAPath", "not a number", [](auto& e, auto&, auto& s) { e.setPath(s, Path::line({0, kNaN}, {1, 1})); }},
+        {"NaNInANewPath", "not a number",
+         [](auto& e, auto& l, auto&) {
+             e.add("shape", l, Path::line({0, 0}, {kNaN, 1}));
+         }},
+        {"NaNInAPath", "not a number",
+         [](auto& e, auto&, auto& s) {
+             e.setPath(s, Path::line({0, kNaN}, {1, 1}));
+         }},
         {"NaNInATransform", "not a number",
-         [](auto& e, auto& l, auto&) { e.transform(l, Affine::translation({kNaN, 0})); }},
-        {"OverflowInATransform", "not a number", [](auto& e, auto& l, auto&) { e.transform(l, Affine::scaling({1e308, 1e308})); }},
+         [](auto& e, auto& l, auto&) {
+             e.transform(l, Affine::translation({kNaN, 0}));
+         }},
+        {"OverflowInATransform", "not a number",
+         [](auto& e, auto& l, auto&) {
+             e.transform(l, Affine::scaling({1e308, 1e308}));
+         }},
         {"SegmentThatIsNotThere", "no segment 9",
          [](auto& e, auto&, auto& s) {
              const std::size_t segments[] = {0, 9};
@@ -213,10 +225,14 @@ const std::vector<Refusal>& refusals()
         {"SceneValueOutOfRange", "must be from", [](auto& e, auto&, auto&) { e.setScene("time-step", 0.0); }},
         {"SceneValueNaN", "finite", [](auto& e, auto&, auto&) { e.setScene("gravity", Vec2(kNaN, 0)); }},
         {"EffectValueOutOfRange", "must be from", [](auto& e, auto&, auto& s) { e.setEffect(s, 0, "width", 1000.0); }},
-        {"EffectThatIsNotThere", "no effect number 5", [](auto& e, auto&, auto& s) { e.setEffect(s, 5, "width", 1.0); }},
+        {"EffectThatIsNotThere", "no effect number 5",
+         [](auto& e, auto&, auto& s) { e.setEffect(s, 5, "width", 1.0); }},
         {"RemovingAnEffectThatIsNotThere", "no effect number 1", [](auto& e, auto&, auto& s) { e.removeEffect(s, 1); }},
         {"MovingAnEffectTooFar", "no effect number 3", [](auto& e, auto&, auto& s) { e.moveEffect(s, 0, 3); }},
-        {"EffectWithAnUnknownValue", "no property 'speed'", [](auto& e, auto&, auto& s) { e.addEffect(s, "tint", {{"speed", 1}}); }},
+        {"EffectWithAnUnknownValue", "no property 'speed'",
+         [](auto& e, auto&, auto& s) {
+             e.addEffect(s, "tint", {{"speed", 1}});
+         }},
         {"EffectOnAnItemWithoutPath", "no path",
          [](auto& e, auto& l, auto&) { e.addEffect(*l.children()[1], "tint"); }},
         {"GroupWithChildrenAsShape", "must stay a group", [](auto& e, auto& l, auto&) { e.setType(l, "shape"); }},
@@ -439,7 +455,8 @@ TEST_F(ItemsCenterTest, EachCommitUndoAndRedoIsToldOnceWithItsChanges)
     history().undo();
     history().redo();
     using Cause = ItemsChanged::Cause;
-    EXPECT_EQ(told, (std::vector<std::pair<Cause, std::size_t>>{{Cause::Commit, 2}, {Cause::Undo, 2}, {Cause::Redo, 2}}));
+    EXPECT_EQ(told,
+              (std::vector<std::pair<Cause, std::size_t>>{{Cause::Commit, 2}, {Cause::Undo, 2}, {Cause::Redo, 2}}));
 }
 
 TEST_F(ItemsCenterTest, TheSceneSaysThatItLooksDifferentInsideATransactionToo)

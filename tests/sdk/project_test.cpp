@@ -1,5 +1,5 @@
-// Projects in folders: what is saved opens again, what is unchanged is not touched, and a save that fails or dies leaves the
-// old project or the new one.
+// Projects in folders: what is saved opens again, what is unchanged is not touched, and a save that fails or dies
+// leaves the old project or the new one.
 #include "scene_fakes.hpp"
 
 #include <jet/project.hpp>
@@ -58,7 +58,8 @@ protected:
     {
         std::map<std::string, std::string> all;
         for (const auto& entry : fs::recursive_directory_iterator(folder))
-            if (entry.is_regular_file()) all[fs::relative(entry.path(), folder).string()] = readFile(entry.path()).orThrow();
+            if (entry.is_regular_file())
+                all[fs::relative(entry.path(), folder).string()] = readFile(entry.path()).orThrow();
         return all;
     }
 
@@ -231,7 +232,8 @@ TEST_F(ProjectTest, PluginsUsedAreRecordedAndKeptWhileTheyAreMissing)
     });
     remove.commit();
     full->save().orThrow();
-    EXPECT_THAT(files()["project.jet"], testing::Not(HasSubstr("<plugin "))) << "what is not used any more is not listed";
+    EXPECT_THAT(files()["project.jet"], testing::Not(HasSubstr("<plugin ")))
+        << "what is not used any more is not listed";
 }
 
 // --- wrong projects
@@ -259,13 +261,17 @@ const std::vector<Wrong>& wrongs()
         {"MissingScene", project("<filter name=\"F\">\n<scene name=\"S\" file=\"s.scene\"/></filter>"),
          "project.jet:4:2: error: the scene file 's.scene' is missing; restore it, or remove this line"},
         {"SceneAbove", project("<filter name=\"F\"><scene name=\"S\" file=\"../s.scene\"/></filter>"), "lies outside"},
-        {"SceneFarAbove", project("<filter name=\"F\"><scene name=\"S\" file=\"a/../../s.scene\"/></filter>"), "lies outside"},
-        {"SceneSomewhere", project("<filter name=\"F\"><scene name=\"S\" file=\"/etc/passwd\"/></filter>"), "lies outside"},
+        {"SceneFarAbove", project("<filter name=\"F\"><scene name=\"S\" file=\"a/../../s.scene\"/></filter>"),
+         "lies outside"},
+        {"SceneSomewhere", project("<filter name=\"F\"><scene name=\"S\" file=\"/etc/passwd\"/></filter>"),
+         "lies outside"},
         {"SceneNowhere", project("<filter name=\"F\"><scene name=\"S\" file=\"\"/></filter>"), "lies outside"},
         {"SceneIsAFolder", project("<filter name=\"F\"><scene name=\"S\" file=\"folder\"/></filter>"), "is a folder"},
-        {"SameName", project("<filter name=\"F\"><scene name=\"S\" file=\"a\"/><scene name=\"S\" file=\"b\"/></filter>"),
+        {"SameName",
+         project("<filter name=\"F\"><scene name=\"S\" file=\"a\"/><scene name=\"S\" file=\"b\"/></filter>"),
          "two scenes called 'S'"},
-        {"SameFile", project("<filter name=\"F\"><scene name=\"S\" file=\"a\"/><scene name=\"T\" file=\"./a\"/></filter>"),
+        {"SameFile",
+         project("<filter name=\"F\"><scene name=\"S\" file=\"a\"/><scene name=\"T\" file=\"./a\"/></filter>"),
          "share the file"},
         {"BrokenScene", project("<filter name=\"F\"><scene name=\"S\" file=\"broken\"/></filter>"), "broken:1:"},
         {"NotUtf8", project("<filter name=\"\xff\"/>"), "project.jet:3:15: error: this is not UTF-8"},
@@ -348,7 +354,8 @@ TEST_F(ProjectTest, AReadOnlySceneStopsTheSaveAndTheNextOneHeals)
     project->addScene("New");  // empty, so that only its being new makes it be written
     const auto saved = project->save();
     ASSERT_FALSE(saved);
-    EXPECT_THAT(saved.error().text(), HasSubstr("Scene 0.scene: error: cannot be written: Permission denied; check the permissions"));
+    EXPECT_THAT(saved.error().text(),
+                HasSubstr("Scene 0.scene: error: cannot be written: Permission denied; check the permissions"));
     EXPECT_EQ(files(), before);
     EXPECT_TRUE(project->isModified());
     fs::permissions(folder / "scenes/Scene 0.scene", fs::perms::owner_write, fs::perm_options::add);
@@ -416,8 +423,8 @@ TEST_F(ProjectTest, AFullDiskLeavesTheOldFilesAndNoOthers)
     EXPECT_EQ(files(), before);
 }
 
-// A child saves again and again until it is killed at some moment. Whatever the moment: the project opens, and each of its
-// scenes is one of those the child wrote.
+// A child saves again and again until it is killed at some moment. Whatever the moment: the project opens, and each of
+// its scenes is one of those the child wrote.
 TEST_F(ProjectTest, KilledWhileSavingItIsTheOldOrTheNewOne)
 {
     make(3)->saveAs(folder).orThrow();

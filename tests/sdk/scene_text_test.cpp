@@ -1,5 +1,5 @@
-// The text of scenes: what is written reads back as the same bytes, what was not written by JET reads as meant, and what is
-// wrong is told with its place.
+// The text of scenes: what is written reads back as the same bytes, what was not written by JET reads as meant, and
+// what is wrong is told with its place.
 #include "scene_fakes.hpp"
 
 #include <jet/project.hpp>
@@ -116,7 +116,8 @@ TEST_F(SceneTextTest, AHandWrittenSceneReadsAsMeant)
     EXPECT_EQ(hill.path().bounds(), Box({0, 0}, {100, 50}));
     EXPECT_FALSE(hill.visible());
     EXPECT_EQ(*hill.effects()[0].properties.find("color"), Value(Color{255, 99, 71, 255}));
-    EXPECT_THAT(level->items().find(ItemId{30})->properties().find("code")->as<std::string>(), HasSubstr("print(\"1 < 2\");"));
+    EXPECT_THAT(level->items().find(ItemId{30})->properties().find("code")->as<std::string>(),
+                HasSubstr("print(\"1 < 2\");"));
     auto edit = level->items().begin("Add");
     EXPECT_EQ(edit.add<ShapeItem>(level->root()).id(), ItemId{31}) << "new ids start above the largest";
 }
@@ -213,8 +214,10 @@ const std::vector<Wrong>& wrongs()
         {"IdWithLetters", item("", R"(type="shape" id="7a" name="S")"), "id=\"7a\" is not a whole number"},
         {"IdOfTheTopGroup", item("", R"(type="shape" id="18446744073709551615" name="S")"), "is not a whole number"},
         {"IdTooLargeForScripts", item("", R"(type="shape" id="9007199254740992" name="S")"), "is not a whole number"},
-        {"DuplicateId", item("") + "\n" + item(""), "level.scene:3:2: error: the id 1 is used twice, here and by 'S' before"},
-        {"VisibleNeither", item("", R"(type="shape" id="1" name="S" visible="maybe")"), "neither \"true\" nor \"false\""},
+        {"DuplicateId", item("") + "\n" + item(""),
+         "level.scene:3:2: error: the id 1 is used twice, here and by 'S' before"},
+        {"VisibleNeither", item("", R"(type="shape" id="1" name="S" visible="maybe")"),
+         "neither \"true\" nor \"false\""},
         {"ChildOfAShape", item(item("", R"(type="shape" id="2" name="T")")), "cannot hold other items"},
         {"NaNCoordinate", item("<path>M 0 0\nL nan 1</path>"), "level.scene:2:"},
         {"InfiniteCoordinate", item("<path>M 0 0 L inf 1</path>"), "the path of 'S'"},
@@ -223,9 +226,13 @@ const std::vector<Wrong>& wrongs()
         {"ElementInPath", item("<path>M 0 0<b/></path>"), "<path> holds text"},
         {"PropertyOfWrongKind", item("<property id=\"omega\">fast</property>", R"(type="body" id="1" name="S")"),
          "property 'omega': Expected a number"},
-        {"PropertyNaN", item("<property id=\"omega\">nan</property>", R"(type="body" id="1" name="S")"), "property 'omega'"},
-        {"PropertyOutOfRange", item("<property id=\"omega\">1e9</property>", R"(type="body" id="1" name="S")"), "must be from"},
-        {"PropertyTwice", item("<property id=\"code\">1</property>\n<property id=\"code\">2</property>", R"(type="script" id="1" name="S")"),
+        {"PropertyNaN", item("<property id=\"omega\">nan</property>", R"(type="body" id="1" name="S")"),
+         "property 'omega'"},
+        {"PropertyOutOfRange", item("<property id=\"omega\">1e9</property>", R"(type="body" id="1" name="S")"),
+         "must be from"},
+        {"PropertyTwice",
+         item("<property id=\"code\">1</property>\n<property id=\"code\">2</property>",
+              R"(type="script" id="1" name="S")"),
          "level.scene:3:2: error: the property 'code' stands here twice"},
         {"PropertyWithoutId", item("<property>1</property>"), "<property> needs the attribute id"},
         {"EffectWithoutType", item("<effect/>"), "<effect> needs the attribute type"},
@@ -234,18 +241,23 @@ const std::vector<Wrong>& wrongs()
          "the property 'gravity' stands here twice"},
         {"TwoSettings", "<settings/><settings/>", "<settings> stands here twice"},
         {"SettingOutOfRange", "<settings><property id=\"time-step\">0</property></settings>", "must be from"},
-        {"MaterialTwice", "<materials><material name=\"a\"/><material name=\"a\"/></materials>", "two materials called 'a'"},
-        {"PairOfUnknownMaterial", "<materials><material name=\"a\"/><pair a=\"a\" b=\"b\" friction=\"1\" restitution=\"0\"/></materials>",
+        {"MaterialTwice", "<materials><material name=\"a\"/><material name=\"a\"/></materials>",
+         "two materials called 'a'"},
+        {"PairOfUnknownMaterial",
+         "<materials><material name=\"a\"/><pair a=\"a\" b=\"b\" friction=\"1\" restitution=\"0\"/></materials>",
          "there is no material 'b'"},
-        {"NegativeFriction", "<materials><material name=\"a\"/><pair a=\"a\" b=\"a\" friction=\"-1\" restitution=\"0\"/></materials>",
+        {"NegativeFriction",
+         "<materials><material name=\"a\"/><pair a=\"a\" b=\"a\" friction=\"-1\" restitution=\"0\"/></materials>",
          "friction must not be negative"},
-        {"NotUtf8", item("", "type=\"shape\" id=\"1\" name=\"\xc3\x28\""), "level.scene:2:33: error: this is not UTF-8"},
+        {"NotUtf8", item("", "type=\"shape\" id=\"1\" name=\"\xc3\x28\""),
+         "level.scene:2:33: error: this is not UTF-8"},
         {"OverlongUtf8", item("", "type=\"shape\" id=\"1\" name=\"\xc0\x80\""), "this is not UTF-8"},
         {"NulByte", std::string("<item\0/>", 8), "level.scene:2:6: error: there is a NUL byte here"},
         {"NulReference", item("<property id=\"a\">x&#0;y</property>"), "this reference names no character"},
         {"HexNulReference", item("<property id=\"a\">x&#x0;y</property>"), "this reference names no character"},
         {"SurrogateReference", item("", R"(type="shape" id="1" name="&#xD800;")"), "this reference names no character"},
-        {"ReferenceTooLarge", item("", R"(type="shape" id="1" name="&#99999999999;")"), "this reference names no character"},
+        {"ReferenceTooLarge", item("", R"(type="shape" id="1" name="&#99999999999;")"),
+         "this reference names no character"},
         {"SecondRoot", "</scene><scene version=\"1\">", "there is a second <scene>"},
     };
     return all;

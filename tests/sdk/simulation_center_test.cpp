@@ -25,8 +25,10 @@ protected:
         edit.add<ScriptItem>(layer());
         edit.commit();
         body_ = body.id();
-        printed_ = events.subscribe<OutputPrinted>(&center, [this](const OutputPrinted& e) { output.push_back(e.line.text); });
-        states_ = events.subscribe<SimulationStateChanged>(&center, [this](const SimulationStateChanged& e) { states.push_back(e.state); });
+        printed_ =
+            events.subscribe<OutputPrinted>(&center, [this](const OutputPrinted& e) { output.push_back(e.line.text); });
+        states_ = events.subscribe<SimulationStateChanged>(
+            &center, [this](const SimulationStateChanged& e) { states.push_back(e.state); });
     }
     /// Runs the owner's event loop until `done`, at most 10 s.
     template <class Done>
@@ -64,7 +66,8 @@ TEST_F(SimulationCenterTest, PlayingMakesFramesAndLeavesTheSceneAlone)
     ASSERT_NE(center.runningScene(), nullptr);
     EXPECT_EQ(center.runningScene()->hash(), before);
     int frames = 0;
-    const auto subscription = events.subscribe<SimulationFrameReady>(&center, [&](const SimulationFrameReady&) { ++frames; });
+    const auto subscription =
+        events.subscribe<SimulationFrameReady>(&center, [&](const SimulationFrameReady&) { ++frames; });
     ASSERT_TRUE(until([&] { return step() >= 3 && frames > 0; }));
     const auto frame = center.frame();
     ASSERT_EQ(frame->poses.size(), 1u);

@@ -176,7 +176,10 @@ TEST_F(SimulationTest, AnUnknownMaterialIsTheFirstWithAWarning)
 TEST_F(SimulationTest, AnEngineThatThrowsWhileStartingIsAMessage)
 {
     struct Broken final : PhysicsEngine {
-        std::unique_ptr<PhysicsWorld> createWorld(const WorldSettings&) override { throw std::runtime_error("no licence"); }
+        std::unique_ptr<PhysicsWorld> createWorld(const WorldSettings&) override
+        {
+            throw std::runtime_error("no licence");
+        }
     };
     catalog.inCode().physicsEngine<Broken>("broken");
     SimulationOptions options;
@@ -203,7 +206,9 @@ TEST_F(SimulationTest, ATorqueActsOnTheNearestBodyInTheTreeUnderItsCentre)
     edit.commit();
     const auto simulation = start();
     simulation->step();
-    const auto omega = [&](const Item& item) { return simulation->world().bodies().omega[simulation->bodyOf(item.id())]; };
+    const auto omega = [&](const Item& item) {
+        return simulation->world().bodies().omega[simulation->bodyOf(item.id())];
+    };
     EXPECT_DOUBLE_EQ(omega(near), -1) << "60 to the left for 1/60 s";
     EXPECT_EQ(omega(far), 0);
     simulation->setTorque(torque.id(), 0);
@@ -257,7 +262,9 @@ protected:
 
 TEST_F(ScriptedSimulationTest, ScriptErrorsArePrintedNotFatal)
 {
-    Hooks::now().scriptRun = [](Simulation&, const Item&) -> Result<void> { return Error("x is not defined", {"Script", 3, 0}); };
+    Hooks::now().scriptRun = [](Simulation&, const Item&) -> Result<void> {
+        return Error("x is not defined", {"Script", 3, 0});
+    };
     const auto simulation = start();
     ASSERT_EQ(simulation->output().size(), 1u);
     EXPECT_EQ(simulation->output()[0].kind, OutputLine::Kind::Error);
@@ -303,7 +310,8 @@ TEST_F(ScriptedSimulationTest, LiveTuningIsChecked)
     const auto id = body.id();
     EXPECT_THAT(failure([&] { simulation->setItemProperty(id, "omega", 1e9); }), HasSubstr("must be from"));
     EXPECT_THAT(failure([&] { simulation->setItemProperty(id, "speed", 1); }), HasSubstr("has no property 'speed'"));
-    EXPECT_THAT(failure([&] { simulation->setItemProperty(ItemId{999}, "omega", 1); }), HasSubstr("not in the playing scene"));
+    EXPECT_THAT(failure([&] { simulation->setItemProperty(ItemId{999}, "omega", 1); }),
+                HasSubstr("not in the playing scene"));
     simulation->setItemProperty(id, "omega", 2);
     EXPECT_EQ(*simulation->scene().items().find(id)->properties().find("omega"), Value(2.0));
 }
@@ -322,7 +330,8 @@ TEST_F(ScriptedSimulationTest, TheStateTellsItemsAndOutput)
     EXPECT_DOUBLE_EQ(state["time"], 0.1);
     EXPECT_THAT(state["hash"].get<std::string>(), testing::MatchesRegex("[0-9a-f]{16}"));
     EXPECT_EQ(state["output"][0], "Żółw");
-    const auto found = std::find_if(state["items"].begin(), state["items"].end(), [&](const auto& i) { return i["id"] == body.id().value; });
+    const auto found = std::find_if(state["items"].begin(), state["items"].end(),
+                                    [&](const auto& i) { return i["id"] == body.id().value; });
     ASSERT_NE(found, state["items"].end());
     EXPECT_EQ((*found)["type"], "body");
     EXPECT_EQ((*found)["name"], body.name());

@@ -15,7 +15,8 @@ struct Blob {
     {
         path.setIntermediate(3);
         std::vector<std::uint32_t> ring;
-        for (const Vec2& p : path.polygonized()[0].points) {
+        const std::vector<Polyline> border = path.polygonized();
+        for (const Vec2& p : border[0].points) {
             ring.push_back(static_cast<std::uint32_t>(body.particles.size()));
             body.particles.push_back(p);
         }

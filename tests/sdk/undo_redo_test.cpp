@@ -205,12 +205,14 @@ private:
     }
     Affine affine()
     {
-        return Affine::translation({real(), real()}) * Affine::rotation(real()) * Affine::scaling({1 + real() / 2000, 1.1});
+        return Affine::translation({real(), real()}) * Affine::rotation(real()) *
+               Affine::scaling({1 + real() / 2000, 1.1});
     }
 
     void change(Transaction& edit)
     {
-        static constexpr const char* types[] = {"shape", "body", "group", "layer", "script", "torque", "rope", "spring"};
+        static constexpr const char* types[] = {"shape",  "body",   "group", "layer",
+                                                "script", "torque", "rope",  "spring"};
         switch (roll(16)) {
         case 0:
         case 1: edit.add(types[roll(8)], container(), roll(2) ? path() : Path(), roll(5)); break;
@@ -224,7 +226,9 @@ private:
         case 9: edit.addEffect(any(), "tint", {{"width", std::abs(real()) / 20}}); break;
         case 10: edit.removeEffect(any(), roll(2)); break;
         case 11: edit.moveEffect(any(), roll(3), roll(3)); break;
-        case 12: edit.setEffect(any(), roll(2), roll(2) ? "width" : "visible", roll(2) ? Value(5.5) : Value(roll(2) == 0)); break;
+        case 12:
+            edit.setEffect(any(), roll(2), roll(2) ? "width" : "visible", roll(2) ? Value(5.5) : Value(roll(2) == 0));
+            break;
         case 13: edit.setScene("gravity", roll(3) ? Value(Vec2(real(), real())) : Value()); break;
         case 14: edit.addCopy(any(), container(), roll(5)); break;
         case 15: {

@@ -1,4 +1,5 @@
-// Catalog: what the installed plugins offer. Known from manifests; a library is loaded when one of its contributions is used.
+// Catalog: what the installed plugins offer. Known from manifests; a library is loaded when one of its contributions is
+// used.
 #pragma once
 
 #include <jet/result.hpp>
@@ -44,7 +45,8 @@ struct Contribution {
 
 /// What plugins offer, by kind and id. Look-ups load the plugin on first use and return null when there is no such
 /// contribution or its plugin failed; explain() says why. Returned objects stay valid while the Catalog lives and are
-/// guarded: an exception inside a plugin is turned into a message and a neutral result. [owner's thread, except where said]
+/// guarded: an exception inside a plugin is turned into a message and a neutral result. [owner's thread, except where
+/// said]
 class JET_API Catalog {
 public:
     virtual ~Catalog();
@@ -63,8 +65,8 @@ public:
     virtual std::unique_ptr<Panel> createPanel(std::string_view id, Editor& editor) = 0;
     virtual Command* command(std::string_view id) = 0;
 
-    /// One sentence on why the look-up of (kind, id) gives nothing and what to do: which plugin provides it and its state,
-    /// or that no known plugin does. For formats `id` is an extension.
+    /// One sentence on why the look-up of (kind, id) gives nothing and what to do: which plugin provides it and its
+    /// state, or that no known plugin does. For formats `id` is an extension.
     virtual std::string explain(ContributionKind kind, std::string_view id) const = 0;
     /// Version of the plugin that provides (kind, id) as "id version"; empty if none.
     virtual std::string provider(ContributionKind kind, std::string_view id) const = 0;

@@ -1,4 +1,5 @@
-// What a transaction records: data-only changes. Undo, events, the dirty mark and crash recovery all come from these records.
+// What a transaction records: data-only changes. Undo, events, the dirty mark and crash recovery all come from these
+// records.
 #pragma once
 
 #include <jet/item.hpp>

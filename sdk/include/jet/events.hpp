@@ -2,8 +2,8 @@
 //
 //   auto subscription = events.subscribe<SelectionChanged>(&scene, [](const SelectionChanged& e) { ... });
 //
-// An event type is any struct with `static constexpr EventType type{"org.jet.selection-changed"};`. Types are compared by
-// that name, not by typeid, so that they mean the same in every library.
+// An event type is any struct with `static constexpr EventType type{"org.jet.selection-changed"};`. Types are compared
+// by that name, not by typeid, so that they mean the same in every library.
 #pragma once
 
 #include <jet/version.hpp>
@@ -44,7 +44,8 @@ private:
 
 /// Delivers typed events. Created on, and delivering on, one owner thread.
 ///
-/// - Listeners may subscribe and unsubscribe (themselves, too) while being called; a new one hears from the next event on.
+/// - Listeners may subscribe and unsubscribe (themselves, too) while being called; a new one hears from the next event
+/// on.
 /// - An exception in one listener does not stop the others; it goes to the exception handler.
 /// - post() from another thread queues a copy for the owner's thread and calls the wake-up hook.
 class JET_API EventsCenter {

@@ -30,16 +30,17 @@ struct FormatNote {
 struct ImportRequest {
     std::filesystem::path file;       ///< for messages and for resolving relative references
     std::span<const std::byte> data;  ///< the whole file
-    Transaction& edit;                ///< everything is created here: an import is one undo step, a failed one leaves nothing
-    const Item& parent;               ///< the container that receives the items
-    std::vector<FormatNote>& notes;   ///< what was left out or approximated
+    Transaction& edit;   ///< everything is created here: an import is one undo step, a failed one leaves nothing
+    const Item& parent;  ///< the container that receives the items
+    std::vector<FormatNote>& notes;  ///< what was left out or approximated
     Progress progress;
 };
 
 class JET_API Importer {
 public:
     virtual ~Importer();
-    /// Reads the file into the transaction. On an Error the caller rolls back. Never reads outside the file's own folder.
+    /// Reads the file into the transaction. On an Error the caller rolls back. Never reads outside the file's own
+    /// folder.
     virtual Result<void> read(ImportRequest& request) = 0;
 };
 
@@ -53,8 +54,8 @@ public:
 
 /// Which part of a scene is seen, and how large.
 struct View {
-    Vec2 anchor;         ///< scene point at the top-left corner
-    double scale = 1;    ///< pixels a scene unit
+    Vec2 anchor;       ///< scene point at the top-left corner
+    double scale = 1;  ///< pixels a scene unit
     Affine toPixels() const { return Affine::scaling({scale, scale}) * Affine::translation(-anchor); }
 };
 
@@ -78,8 +79,8 @@ public:
 
 // Files. Errors name the file, the reason and the remedy.
 JET_API Result<std::string> readFile(const std::filesystem::path& file);
-/// Writes beside the target, syncs, renames: the target is the old or the new content, never a part (SPEC IO1). A symbolic
-/// link is followed; permissions are kept.
+/// Writes beside the target, syncs, renames: the target is the old or the new content, never a part (SPEC IO1). A
+/// symbolic link is followed; permissions are kept.
 JET_API Result<void> writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> content);
 JET_API Result<void> writeFileAtomically(const std::filesystem::path& file, std::string_view content);
 /// Lower-case extension without dot.

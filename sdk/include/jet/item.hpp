@@ -16,19 +16,35 @@ class Item;
 class ItemsCenter;
 
 // The item kinds of the SDK (SPEC IT1-IT8), as tags for Transaction::add<Kind>() and Item::is<Kind>().
-struct GroupItem { static constexpr std::string_view type = "group"; };
-struct LayerItem { static constexpr std::string_view type = "layer"; };
-struct ShapeItem { static constexpr std::string_view type = "shape"; };
+struct GroupItem {
+    static constexpr std::string_view type = "group";
+};
+struct LayerItem {
+    static constexpr std::string_view type = "layer";
+};
+struct ShapeItem {
+    static constexpr std::string_view type = "shape";
+};
 /// A shape with a physical body; which one is an effect's business (in-path-body, in-path-rigid-body).
-struct BodyItem { static constexpr std::string_view type = "body"; };
+struct BodyItem {
+    static constexpr std::string_view type = "body";
+};
 /// A script, run at play in tree order (thesis §3.4.5). Its code is the property "code".
-struct ScriptItem { static constexpr std::string_view type = "script"; };
+struct ScriptItem {
+    static constexpr std::string_view type = "script";
+};
 /// A spring between the first and the last segment of its path (thesis §3.4.6).
-struct SpringItem { static constexpr std::string_view type = "spring"; };
+struct SpringItem {
+    static constexpr std::string_view type = "spring";
+};
 /// An angular spring; first, middle and last segment are a, centre and b.
-struct RSpringItem { static constexpr std::string_view type = "rspring"; };
+struct RSpringItem {
+    static constexpr std::string_view type = "rspring";
+};
 /// A torque about the centre of its bounding box (thesis §3.4.7). Positive "value" turns left, as in the thesis's §4.3.
-struct TorqueItem { static constexpr std::string_view type = "torque"; };
+struct TorqueItem {
+    static constexpr std::string_view type = "torque";
+};
 
 /// An effect on an item: which one, and with what values. Data only; behaviour is the Effect of that type.
 struct EffectInstance {
@@ -66,7 +82,8 @@ public:
 
     const Path& path() const { return path_; }
     const Properties& properties() const { return properties_; }
-    /// The stored property, or the common ones "name", "visible", "locked"; null where unset (the type's table has the default).
+    /// The stored property, or the common ones "name", "visible", "locked"; null where unset (the type's table has the
+    /// default).
     std::optional<Value> property(std::string_view id) const;
     std::span<const EffectInstance> effects() const { return effects_; }
     /// The first effect of that type, or null.
@@ -100,7 +117,6 @@ public:
     struct Mutator;  ///< the SDK's own way to change items; not defined for plugins
 
 private:
-
     void touch();
 
     ItemId id_;

@@ -5,8 +5,8 @@
 //   edit.addEffect(shape, "polygon-face", {{"color", green}});
 //   edit.commit();                     // leaving without commit, or by an exception, restores everything
 //
-// Grammar: begin · (add | remove | set… | select)* · (commit | rollback); restart() goes back to just after begin, for drags.
-// One transaction is open at a time. All of it belongs to the thread that owns the scene.
+// Grammar: begin · (add | remove | set… | select)* · (commit | rollback); restart() goes back to just after begin, for
+// drags. One transaction is open at a time. All of it belongs to the thread that owns the scene.
 #pragma once
 
 #include <jet/change.hpp>
@@ -44,8 +44,8 @@ struct SelectionChanged {
     const Scene* scene;
 };
 
-/// An open change of a scene. Methods throw Failure for what cannot be done (unknown property, value out of range, NaN in a
-/// path, moving a group into itself); the scene is then as before that call.
+/// An open change of a scene. Methods throw Failure for what cannot be done (unknown property, value out of range, NaN
+/// in a path, moving a group into itself); the scene is then as before that call.
 class JET_API Transaction {
 public:
     Transaction(Transaction&& other) noexcept;
@@ -72,7 +72,8 @@ public:
     void transform(const Item& item, const Affine& m);
     /// Transforms only the given segments of the item's own path.
     void transform(const Item& item, const Affine& m, std::span<const std::size_t> segments);
-    /// Turns e.g. a shape into a body. Properties the new type does not declare are dropped, its own get their defaults.
+    /// Turns e.g. a shape into a body. Properties the new type does not declare are dropped, its own get their
+    /// defaults.
     void setType(const Item& item, std::string_view type);
 
     /// Appends an effect with all its properties stored (given ones, else defaults); returns its index.
@@ -88,8 +89,8 @@ public:
     void select(const Item& item);
     void setSelection(std::vector<ItemId> items);
 
-    /// Makes it one undo step. With a merge key, joins the previous step if that has the same key and nothing came between
-    /// (a slider drag, arrow-key nudges). Without any change no step is made.
+    /// Makes it one undo step. With a merge key, joins the previous step if that has the same key and nothing came
+    /// between (a slider drag, arrow-key nudges). Without any change no step is made.
     void commit(std::string_view mergeKey = {});
     void rollback();
     /// Back to the state just after begin(), still open: a drag re-applies its whole movement each time, without drift.

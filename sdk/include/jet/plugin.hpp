@@ -1,4 +1,5 @@
-// The plugin contract: one exported C symbol, checked before any C++ call, and a registrar that receives the contributions.
+// The plugin contract: one exported C symbol, checked before any C++ call, and a registrar that receives the
+// contributions.
 //
 //   JET_PLUGIN(plugin) { plugin.tool<RectangleTool>("rectangle"); }
 //

@@ -31,8 +31,8 @@ public:
     static std::unique_ptr<Project> create(std::string name, EventsCenter& events, Catalog& catalog);
     /// Reads `project.jet` (or the folder that holds it) and its scenes. The error names file, line and column.
     /// What a missing plugin wrote is kept as it is and listed in notes().
-    static Result<std::unique_ptr<Project>> load(const std::filesystem::path& path, EventsCenter& events, Catalog& catalog,
-                                                 const Progress& progress = {});
+    static Result<std::unique_ptr<Project>> load(const std::filesystem::path& path, EventsCenter& events,
+                                                 Catalog& catalog, const Progress& progress = {});
     ~Project();
 
     const std::string& name() const { return name_; }
