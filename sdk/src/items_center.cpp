@@ -114,9 +114,16 @@ void ItemsCenter::Private::delist(const Item& subtree)
     subtree.walk([&](const Item& item) {
         byId.erase(item.id().value);
         scene.dropEffectStates(item.id());
-        selectedGone = selectedGone || selected.contains(item.id().value);
+        selectedGone = selected.erase(item.id().value) > 0 || selectedGone;
     });
-    if (selectedGone) setSelection(selection);
+    if (selectedGone) events.post(&scene, SelectionChanged{&scene});
+}
+
+const std::vector<ItemId>& ItemsCenter::Private::selection() const
+{
+    if (ordered.size() != selected.size())
+        std::erase_if(ordered, [&](ItemId id) { return !selected.contains(id.value); });
+    return ordered;
 }
 
 void ItemsCenter::Private::insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item)
@@ -221,8 +228,8 @@ void ItemsCenter::Private::setSelection(std::vector<ItemId> items)
     std::unordered_set<std::uint64_t> known;
     std::erase_if(
         items, [&](ItemId id) { return id == kRootId || !byId.contains(id.value) || !known.insert(id.value).second; });
-    if (items == selection) return;
-    selection = std::move(items);
+    if (items == selection()) return;
+    ordered = std::move(items);
     selected = std::move(known);
     events.post(&scene, SelectionChanged{&scene});
 }
@@ -245,7 +252,7 @@ Transaction ItemsCenter::begin(std::string_view label)
     if (d_->open)
         throw Failure(Error("'" + std::string(label) + "' cannot start while '" + d_->open->label +
                             "' is under way; finish or cancel that first"));
-    d_->open = OpenTransaction{++d_->serial, std::string(label), {}, d_->selection, d_->nextId};
+    d_->open = OpenTransaction{++d_->serial, std::string(label), {}, d_->selection(), d_->nextId};
     return Transaction(*this, d_->serial);
 }
 
@@ -269,7 +276,7 @@ const Item* ItemsCenter::find(ItemId id) const
 }
 
 std::size_t ItemsCenter::itemCount() const { return d_->byId.size() - 1; }
-const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection; }
+const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection(); }
 
 bool ItemsCenter::isSelected(ItemId id) const { return d_->selected.contains(id.value); }
 

@@ -36,8 +36,9 @@ struct ItemsCenter::Private {
     std::unique_ptr<Item> root;
     std::unordered_map<std::uint64_t, Item*> byId;
     std::uint64_t nextId = 1;
-    std::vector<ItemId> selection;
-    std::unordered_set<std::uint64_t> selected;  // the same ids, to ask for one
+    std::unordered_set<std::uint64_t> selected;
+    mutable std::vector<ItemId>
+        ordered;  // the same in the order selected; what was removed since leaves it when asked for
     std::uint64_t serial = 0;
     std::optional<OpenTransaction> open;
 
@@ -62,7 +63,7 @@ struct ItemsCenter::Private {
     class Savepoint {
     public:
         explicit Savepoint(Private& d)
-            : d_(d), changes_(d.open->changes.size()), nextId_(d.nextId), selection_(d.selection)
+            : d_(d), changes_(d.open->changes.size()), nextId_(d.nextId), selection_(d.selection())
         {
         }
         void restore() const
@@ -83,6 +84,7 @@ struct ItemsCenter::Private {
     void insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item);
     std::unique_ptr<Item> take(ItemId id);
 
+    const std::vector<ItemId>& selection() const;
     void setSelection(std::vector<ItemId> items);
     void notifyTouched();
     void notifyChanged(std::span<const Change> changes, ItemsChanged::Cause cause);

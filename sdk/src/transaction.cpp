@@ -374,7 +374,7 @@ void Transaction::commit(std::string_view mergeKey)
     d.open.reset();
     if (finished.changes.empty()) return;
     UndoStep step{std::move(finished.label), std::string(mergeKey), std::move(finished.changes),
-                  std::move(finished.selectionBefore), d.selection};
+                  std::move(finished.selectionBefore), d.selection()};
     auto& history = *d.scene.undoRedo().d_;
     const std::size_t count = step.changes.size();
     history.push(std::move(step));
