@@ -281,6 +281,8 @@ TEST_F(ScriptedSimulationTest, EventsComeInOrder)
         case ScriptEventKind::KeyDown: heard += 'd'; break;
         case ScriptEventKind::KeyTyped: heard += 't'; break;
         case ScriptEventKind::KeyUp: heard += 'u'; break;
+        case ScriptEventKind::PrePaint: heard += '('; break;
+        case ScriptEventKind::PostPaint: heard += ')'; break;
         default: heard += '?'; break;
         }
         if (e.kind == ScriptEventKind::KeyDown) {
@@ -292,7 +294,7 @@ TEST_F(ScriptedSimulationTest, EventsComeInOrder)
     simulation->step();
     simulation->key({"D", "", {}, false}, false);
     EXPECT_FALSE(simulation->isPressed("D"));
-    EXPECT_EQ(heard, "dtsu");
+    EXPECT_EQ(heard, "dts()u");
 }
 
 TEST_F(ScriptedSimulationTest, OutputIsBounded)

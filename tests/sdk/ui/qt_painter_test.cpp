@@ -264,7 +264,9 @@ TEST_F(QtPainterTest, CosmeticTextKeepsItsSize)
         });
         return ink();
     };
-    EXPECT_NEAR(inkAt(1), inkAt(7), 1e-9);
+    // Hinting differs a little between the two; without the compensation it would be 49 times as much.
+    const double ink = inkAt(1);
+    EXPECT_NEAR(inkAt(7), ink, 0.25 * ink);
 }
 
 TEST_F(QtPainterTest, AnImageFillsItsBox)
