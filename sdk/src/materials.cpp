@@ -45,7 +45,8 @@ bool MaterialTable::operator==(const MaterialTable& other) const
     const auto equal = [](const MaterialPair& a, const MaterialPair& b) {
         return a.friction == b.friction && a.restitution == b.restitution && a.collides == b.collides;
     };
-    return names_ == other.names_ && std::equal(pairs_.begin(), pairs_.end(), other.pairs_.begin(), other.pairs_.end(), equal);
+    return names_ == other.names_ &&
+           std::equal(pairs_.begin(), pairs_.end(), other.pairs_.begin(), other.pairs_.end(), equal);
 }
 
 }  // namespace jet

@@ -1,6 +1,6 @@
-// Effect: what gives an item its look or its body (thesis §3.5.2, SPEC EF). An effect is stateless; its values live in the
-// item (EffectInstance), so undo, files and copies work without the plugin. Geometry changes reach it by themselves: paint and
-// build always get the present path.
+// Effect: what gives an item its look or its body (thesis §3.5.2, SPEC EF). An effect is stateless; its values live in
+// the item (EffectInstance), so undo, files and copies work without the plugin. Geometry changes reach it by
+// themselves: paint and build always get the present path.
 #pragma once
 
 #include <jet/item.hpp>
@@ -60,9 +60,10 @@ public:
     /// Computes what paint() would otherwise compute every time (the thesis's update()). Null: nothing to keep.
     virtual std::unique_ptr<EffectState> update(const EffectInput& input) const;
     /// Draws. `state` is what update() returned for this very input, or null.
-    virtual void paint(const EffectInput& input, const EffectState* state, PaintPurpose purpose, Painter& painter) const;
-    /// The body this effect gives the item, in scene coordinates; none for effects that are only looks. `common` holds the
-    /// body item's own properties (fixed, material, ...), to be copied into the definition.
+    virtual void paint(const EffectInput& input, const EffectState* state, PaintPurpose purpose,
+                       Painter& painter) const;
+    /// The body this effect gives the item, in scene coordinates; none for effects that are only looks. `common` holds
+    /// the body item's own properties (fixed, material, ...), to be copied into the definition.
     virtual std::optional<BodyDef> buildBody(const EffectInput& input, const BodyCommon& common) const;
 };
 

@@ -1,4 +1,5 @@
-// Vectors, boxes and affine maps of the scene plane: scene units, y down, angles in radians growing clockwise on screen.
+// Vectors, boxes and affine maps of the scene plane: scene units, y down, angles in radians growing clockwise on
+// screen.
 #pragma once
 
 #include <jet/version.hpp>
@@ -11,7 +12,8 @@
 
 namespace jet {
 
-/// A point or a direction, in scene units. Value-initialised to zero (JET's targets define EIGEN_INITIALIZE_MATRICES_BY_ZERO).
+/// A point or a direction, in scene units. Value-initialised to zero (JET's targets define
+/// EIGEN_INITIALIZE_MATRICES_BY_ZERO).
 using Vec2 = Eigen::Vector2d;
 
 inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -33,7 +35,8 @@ public:
     static Affine translation(const Vec2& by) { return Base(Eigen::Translation2d(by)); }
     static Affine scaling(const Vec2& factor, const Vec2& about = Vec2::Zero())
     {
-        return Base(Eigen::Translation2d(about) * Eigen::Scaling(factor.x(), factor.y()) * Eigen::Translation2d(-about));
+        return Base(Eigen::Translation2d(about) * Eigen::Scaling(factor.x(), factor.y()) *
+                    Eigen::Translation2d(-about));
     }
     /// Turns by `angle` radians, clockwise on screen.
     static Affine rotation(double angle, const Vec2& about = Vec2::Zero())

@@ -27,8 +27,8 @@ struct WheelEvent {
     Modifiers modifiers;
 };
 
-/// Keys are named as in the files and scripts: "A".."Z", "0".."9", "Left", "Right", "Up", "Down", "Space", "Enter", "Escape",
-/// "Backspace", "Delete", "Tab", "Shift", "Control", "Alt", "F1".."F12", else the character typed.
+/// Keys are named as in the files and scripts: "A".."Z", "0".."9", "Left", "Right", "Up", "Down", "Space", "Enter",
+/// "Escape", "Backspace", "Delete", "Tab", "Shift", "Control", "Alt", "F1".."F12", else the character typed.
 struct KeyEvent {
     std::string key;
     std::string text;  ///< what was typed, UTF-8; may be empty

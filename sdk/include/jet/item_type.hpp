@@ -13,8 +13,8 @@ class JET_API WorldBuilder {
 public:
     virtual ~WorldBuilder();
     virtual PhysicsWorld& world() = 0;
-    /// Anchor for a point of `item`: the body with the least distance in the tree that contains the point (of equally near
-    /// ones, the one before the item), else the background (thesis §3.4.6, SPEC PH7).
+    /// Anchor for a point of `item`: the body with the least distance in the tree that contains the point (of equally
+    /// near ones, the one before the item), else the background (thesis §3.4.6, SPEC PH7).
     virtual Anchor anchor(const Item& item, const Vec2& point) const = 0;
     /// Makes the actuator scriptable as item.spring / item.torque.
     virtual void bind(const Item& item, ActuatorHandle actuator) = 0;

@@ -1,5 +1,5 @@
-// Painter: what effects and items draw to. The window, PNG, SVG export and the web player are painters: draw once, appear
-// everywhere. Coordinates are scene units; sizes in pixels say so in their name.
+// Painter: what effects and items draw to. The window, PNG, SVG export and the web player are painters: draw once,
+// appear everywhere. Coordinates are scene units; sizes in pixels say so in their name.
 #pragma once
 
 #include <jet/path.hpp>
@@ -18,12 +18,12 @@ enum class LineJoin { Miter, Round, Bevel };
 
 struct Pen {
     Color color;
-    double width = 1;             ///< scene units; with `cosmetic`, pixels
-    bool cosmetic = false;        ///< same width at every zoom
+    double width = 1;       ///< scene units; with `cosmetic`, pixels
+    bool cosmetic = false;  ///< same width at every zoom
     LineCap cap = LineCap::Butt;
     LineJoin join = LineJoin::Miter;
     double miterLimit = 4;
-    std::vector<double> dashes;   ///< lengths of dash, gap, …, in units of `width`'s unit; empty: solid
+    std::vector<double> dashes;  ///< lengths of dash, gap, …, in units of `width`'s unit; empty: solid
     double dashOffset = 0;
 };
 
@@ -61,9 +61,9 @@ struct Image {
 
 struct TextStyle {
     Color color;
-    double size = 12;          ///< em size, scene units; with `cosmetic`, pixels
+    double size = 12;  ///< em size, scene units; with `cosmetic`, pixels
     bool cosmetic = false;
-    bool centered = false;     ///< `at` is the middle of the text instead of the start of its baseline
+    bool centered = false;  ///< `at` is the middle of the text instead of the start of its baseline
 };
 
 /// A drawing surface. save() and restore() nest and cover transform, clip and opacity. [thread that made it]

@@ -2,7 +2,8 @@
 //
 // Order of calls: engine.createWorld -> world.add... (any number) -> world.step / read / act, repeated -> destroyed.
 // A world belongs to one thread at a time: the simulation's. Handles are indices in the order of adding, per kind.
-// Units: scene units (y down), seconds, mass units; force = mass * unit / s². Angles and torques grow clockwise on screen.
+// Units: scene units (y down), seconds, mass units; force = mass * unit / s². Angles and torques grow clockwise on
+// screen.
 #pragma once
 
 #include <jet/geometry.hpp>
@@ -36,7 +37,8 @@ struct WorldSettings {
     bool findCollisions = true;
     bool resolveCollisions = true;
     std::uint32_t materialCount = 1;
-    std::vector<MaterialPair> materials = std::vector<MaterialPair>(1);  ///< [materialCount x materialCount], row major, symmetric
+    std::vector<MaterialPair> materials =
+        std::vector<MaterialPair>(1);  ///< [materialCount x materialCount], row major, symmetric
     int threads = 1;
 };
 
@@ -70,10 +72,10 @@ struct BodyCommon {
 /// point is inside when it is inside an odd number of borders: an outer border and holes. Concave is normal.
 struct SoftBodyDef {
     BodyCommon common;
-    std::vector<Vec2> particles;                     ///< positions, scene units
-    std::vector<double> masses;                      ///< one a particle, > 0
-    std::vector<std::uint8_t> movable;               ///< one a particle; empty = all movable
-    std::vector<std::vector<std::uint32_t>> borders; ///< closed rings of particle indices
+    std::vector<Vec2> particles;                      ///< positions, scene units
+    std::vector<double> masses;                       ///< one a particle, > 0
+    std::vector<std::uint8_t> movable;                ///< one a particle; empty = all movable
+    std::vector<std::vector<std::uint32_t>> borders;  ///< closed rings of particle indices
     std::vector<SpringDef> springs;
     std::vector<AngularSpringDef> angularSprings;
 };
@@ -132,13 +134,14 @@ struct Contact {
 
 /// Structure-of-arrays view of all bodies after a step; valid until the next non-const call on the world.
 struct BodyStates {
-    std::span<const Vec2> position;    ///< [bodies] centre of mass
-    std::span<const double> angle;     ///< [bodies] radians since the start; soft bodies: best-fit rotation
-    std::span<const Vec2> velocity;    ///< [bodies] of the centre of mass
-    std::span<const double> omega;     ///< [bodies] rad/s
-    std::span<const Box> bounds;       ///< [bodies]
-    std::span<const std::uint32_t> firstPoint;  ///< [bodies + 1] ranges into points: soft = particles, rigid = border vertices
-    std::span<const Vec2> points;               ///< [firstPoint.back()] current positions
+    std::span<const Vec2> position;  ///< [bodies] centre of mass
+    std::span<const double> angle;   ///< [bodies] radians since the start; soft bodies: best-fit rotation
+    std::span<const Vec2> velocity;  ///< [bodies] of the centre of mass
+    std::span<const double> omega;   ///< [bodies] rad/s
+    std::span<const Box> bounds;     ///< [bodies]
+    std::span<const std::uint32_t>
+        firstPoint;                ///< [bodies + 1] ranges into points: soft = particles, rigid = border vertices
+    std::span<const Vec2> points;  ///< [firstPoint.back()] current positions
 };
 
 /// Counts and times of the last step.

@@ -13,14 +13,25 @@ namespace jet {
 
 class Simulation;
 
-enum class ScriptEventKind { Step, PrePaint, PostPaint, KeyDown, KeyUp, KeyTyped, BodyCollision, PointerDown, PointerUp, PointerMove };
+enum class ScriptEventKind {
+    Step,
+    PrePaint,
+    PostPaint,
+    KeyDown,
+    KeyUp,
+    KeyTyped,
+    BodyCollision,
+    PointerDown,
+    PointerUp,
+    PointerMove
+};
 
 struct ScriptEvent {
     ScriptEventKind kind;
-    KeyEvent key;                              ///< Key*
-    PointerEvent pointer;                      ///< Pointer*
-    ItemId bodyA, bodyB;                       ///< BodyCollision
-    Contact contact;                           ///< BodyCollision
+    KeyEvent key;          ///< Key*
+    PointerEvent pointer;  ///< Pointer*
+    ItemId bodyA, bodyB;   ///< BodyCollision
+    Contact contact;       ///< BodyCollision
 };
 
 /// The scripts of one running simulation. Used on the simulation's thread only; destroyed before the Simulation.

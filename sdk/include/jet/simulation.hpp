@@ -56,8 +56,8 @@ public:
     static Result<std::unique_ptr<Simulation>> start(const Scene& scene, SimulationOptions options);
     ~Simulation() override;
 
-    /// One fixed time step: scripts' onStep, physics, then collisions, onPrePaint and onPostPaint to scripts (SPEC PH10).
-    /// What an engine throws passes through: the run is over then.
+    /// One fixed time step: scripts' onStep, physics, then collisions, onPrePaint and onPostPaint to scripts (SPEC
+    /// PH10). What an engine throws passes through: the run is over then.
     void step();
     std::uint64_t stepCount() const;
     /// Simulated seconds.

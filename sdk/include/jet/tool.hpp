@@ -20,8 +20,8 @@ public:
     virtual ~ToolHost();
     virtual Scene& scene() = 0;
     ItemsCenter& items() { return scene().items(); }
-    /// The container new items go to: the group or layer of the selection, else the active or first layer, made if need be.
-    /// Within an open transaction, so that a made layer is part of it.
+    /// The container new items go to: the group or layer of the selection, else the active or first layer, made if need
+    /// be. Within an open transaction, so that a made layer is part of it.
     virtual const Item& insertionPoint(Transaction& edit) = 0;
     /// Pen for rubber bands and outlines: cosmetic, in the accent colour.
     virtual Pen layerPen() const = 0;
@@ -33,8 +33,8 @@ public:
     virtual void setCursor(std::string_view name) = 0;
     /// The tool's own options (see Tool::options), kept between runs.
     virtual const Properties& options() const = 0;
-    /// Makes another tool the active one, e.g. to edit the nodes of what was double-clicked. The asking tool is deactivated,
-    /// perhaps before this returns. A host with one tool, and one without that tool, ignores it.
+    /// Makes another tool the active one, e.g. to edit the nodes of what was double-clicked. The asking tool is
+    /// deactivated, perhaps before this returns. A host with one tool, and one without that tool, ignores it.
     virtual void switchTool(std::string_view id);
 };
 

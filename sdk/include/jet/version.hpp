@@ -1,4 +1,5 @@
-// The version of the SDK and the tag of the compiler ABI a plugin was built with. Both are compared before a plugin runs.
+// The version of the SDK and the tag of the compiler ABI a plugin was built with. Both are compared before a plugin
+// runs.
 #pragma once
 
 #include <cstddef>  // defines the standard library macros tested below

@@ -27,7 +27,17 @@ void NumberEdit::setNumber(std::optional<double> number)
 void NumberEdit::showNumber()
 {
     const QSignalBlocker quiet(lineEdit());
-    lineEdit()->setText(number_ ? QString::fromStdString(numberText(*number_)) + suffix_ : QString());
+    lineEdit()->setText(number_ ? textOf(*number_) + suffix_ : QString());
+    lineEdit()->setModified(false);
+}
+
+QString NumberEdit::textOf(double number) const
+{
+    // All digits are for who edits; 1/60 s reads better as 0.0166667.
+    constexpr int kReadableDigits = 6;
+    const bool readable = !hasFocus() && std::abs(number) < 1e6;
+    const double shown = readable ? QByteArray::number(number, 'g', kReadableDigits).toDouble() : number;
+    return QString::fromStdString(numberText(shown));
 }
 
 std::optional<double> NumberEdit::read(const QString& text) const
@@ -74,7 +84,7 @@ void NumberEdit::accept(double number, bool done)
 
 void NumberEdit::finish()
 {
-    const std::optional<double> entered = read(lineEdit()->text());
+    const std::optional<double> entered = lineEdit()->isModified() ? read(lineEdit()->text()) : number_;
     if (entered && (entered != number_ || spinning_)) return accept(*entered, true);
     showNumber();
 }
@@ -101,6 +111,7 @@ void NumberEdit::wheelEvent(QWheelEvent* event)
 void NumberEdit::focusInEvent(QFocusEvent* event)
 {
     QAbstractSpinBox::focusInEvent(event);
+    showNumber();
     selectAll();
 }
 

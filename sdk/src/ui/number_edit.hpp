@@ -36,6 +36,7 @@ private:
     double step() const;
     void accept(double number, bool done);
     void showNumber();
+    QString textOf(double number) const;
     void finish();
 
     bool whole_;

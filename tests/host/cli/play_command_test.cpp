@@ -111,8 +111,8 @@ TEST_P(BrokenCallbackTest, EndsThePlayWithAMessageNamingThePlugin)
           "<effect type=\"fragile\"/></item><item type=\"fragile\" id=\"2\" name=\"F\"/>"
           "<item type=\"script\" id=\"3\" name=\"S\"/></scene>");
     const Outcome run = plain("--plugins test.jetset --plugin-path '" + plugins().path().string() +
-                              "' --without org.jet.test.good play game --steps 20",
-                          std::string("JET_TEST_THROW='") + GetParam() + "'");
+                                  "' --without org.jet.test.good play game --steps 20",
+                              std::string("JET_TEST_THROW='") + GetParam() + "'");
     EXPECT_EQ(run.code, 1) << run.err;
     EXPECT_THAT(run.err, HasSubstr("Throws inside (org.jet.test.throws-inside 1.0.0)"));
     EXPECT_THAT(run.err, HasSubstr(std::string(GetParam()) + " failed: oops"));

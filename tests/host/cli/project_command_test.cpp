@@ -90,7 +90,8 @@ TEST_F(ProjectCommandTest, ANewProjectWhereNoneCanBeSaysSo)
 
 TEST_F(ProjectCommandTest, AFileSizeLimitIsAMessage)
 {
-    const Outcome run = plain("--version >/dev/null; ulimit -f 0; exec '" JET_BINARY_DIR "/bin/jet' project new limited");
+    const Outcome run =
+        plain("--version >/dev/null; ulimit -f 0; exec '" JET_BINARY_DIR "/bin/jet' project new limited");
     EXPECT_EQ(run.code, 1) << "the redirected output is limited, too, so the code has to tell";
     EXPECT_FALSE(exists("limited/project.jet"));
 }

@@ -35,7 +35,8 @@ private:
 JET_API QPainterPath toQt(const Path& path);
 JET_API QTransform toQt(const Affine& m);
 
-/// Makes sure fonts and images can be painted without a window: starts an offscreen QGuiApplication if there is none. [main thread]
+/// Makes sure fonts and images can be painted without a window: starts an offscreen QGuiApplication if there is none.
+/// [main thread]
 JET_API void ensureGuiApplication();
 
 }  // namespace jet::ui
