@@ -28,7 +28,6 @@ void NumberEdit::showNumber()
 {
     const QSignalBlocker quiet(lineEdit());
     lineEdit()->setText(number_ ? textOf(*number_) + suffix_ : QString());
-    lineEdit()->setModified(false);
 }
 
 QString NumberEdit::textOf(double number) const
@@ -84,7 +83,9 @@ void NumberEdit::accept(double number, bool done)
 
 void NumberEdit::finish()
 {
-    const std::optional<double> entered = lineEdit()->isModified() ? read(lineEdit()->text()) : number_;
+    // A shortened number that nobody touched stays what it is.
+    const bool untouched = number_ && lineEdit()->text() == textOf(*number_) + suffix_;
+    const std::optional<double> entered = untouched ? number_ : read(lineEdit()->text());
     if (entered && (entered != number_ || spinning_)) return accept(*entered, true);
     showNumber();
 }

@@ -1,0 +1,95 @@
+#include "inspector/inspector_widget.hpp"
+#include "window_fixture.hpp"
+
+#include <QAbstractSpinBox>
+#include <QCheckBox>
+#include <QLineEdit>
+#include <QTest>
+
+namespace jet::test {
+
+class InspectorTest : public WindowFixture {
+protected:
+    InspectorTest()
+    {
+        draw("rectangle", {100, 100}, {150, 150});
+        draw("rectangle", {200, 100}, {250, 150});
+        inspector_ = std::make_unique<inspector::InspectorWidget>(window());
+        inspector_->resize(300, 600);
+        inspector_->show();
+    }
+    /// The Inspector follows a little later; on a busy machine, much later.
+    static bool eventually(const std::function<bool()>& holds) { return QTest::qWaitFor(holds, 10000); }
+    ui::PropertyEditor* editor(const char* property)
+    {
+        for (ui::PropertyForm* form : inspector_->findChildren<ui::PropertyForm*>()) {
+            if (!form->isVisible()) continue;
+            if (auto* found = dynamic_cast<ui::PropertyEditor*>(form->findChild<QWidget*>(property))) return found;
+        }
+        return nullptr;
+    }
+
+    std::unique_ptr<inspector::InspectorWidget> inspector_;
+};
+
+TEST_F(InspectorTest, ShowsTheSelectedItemAndRenamesIt)
+{
+    auto* name = editor("name")->findChild<QLineEdit*>();
+    EXPECT_EQ(name->text().toStdString(), shapes().back()->name());
+    name->selectAll();
+    QTest::keyClicks(name, "Ball");
+    QTest::keyClick(name, Qt::Key_Return);
+    EXPECT_EQ(shapes().back()->name(), "Ball");
+    scene().undoRedo().undo();
+    EXPECT_TRUE(eventually([&] { return editor("name")->findChild<QLineEdit*>()->text() != "Ball"; }));
+}
+
+TEST_F(InspectorTest, DifferingValuesAreBlankAndOneEditSetsAll)
+{
+    scene().items().setSelection({shapes()[0]->id(), shapes()[1]->id()});
+    ASSERT_TRUE(eventually([&] { return editor("name")->findChild<QLineEdit*>()->text().isEmpty(); }));
+    editor("locked")->findChild<QCheckBox*>()->click();
+    EXPECT_TRUE(shapes()[0]->locked());
+    EXPECT_TRUE(shapes()[1]->locked());
+    scene().undoRedo().undo();
+    EXPECT_FALSE(shapes()[0]->locked());
+}
+
+TEST_F(InspectorTest, SpinningAValueIsOneUndoStep)
+{
+    const std::uint64_t before = scene().hash();
+    auto* x = editor("position")->findChild<QAbstractSpinBox*>();
+    for (int i = 0; i < 5; ++i) {
+        const double from = shapes().back()->bounds().min.x();
+        x->stepUp();
+        EXPECT_GT(shapes().back()->bounds().min.x(), from);
+    }
+    EXPECT_NE(scene().hash(), before);
+    scene().undoRedo().undo();
+    EXPECT_EQ(scene().hash(), before);
+}
+
+TEST_F(InspectorTest, ExactNumbersAreKeptAndOutOfRangeIsBounded)
+{
+    scene().items().setSelection({});
+    ASSERT_TRUE(eventually([&] { return editor("time-step") != nullptr; }));
+    auto* step = editor("time-step")->findChild<QAbstractSpinBox*>();
+    const auto enter = [&](const char* number) {
+        step->selectAll();
+        QTest::keyClicks(step, number);
+        QTest::keyClick(step, Qt::Key_Return);
+        return scene().setting("time-step").as<double>();
+    };
+    EXPECT_EQ(enter("0.0125"), 0.0125);
+    EXPECT_EQ(enter("7"), 1);  // at most a second a step
+    EXPECT_EQ(enter("0,5"), 0.5);
+}
+
+TEST_F(InspectorTest, WithNothingSelectedTheSceneIsShown)
+{
+    EXPECT_EQ(editor("gravity"), nullptr);
+    scene().items().setSelection({});
+    EXPECT_TRUE(eventually([&] { return editor("gravity") != nullptr; }));
+}
+
+}  // namespace jet::test
