@@ -78,6 +78,7 @@ TEST_F(InspectorTest, ExactNumbersAreKeptAndOutOfRangeIsBounded)
         step->selectAll();
         QTest::keyClicks(step, number);
         QTest::keyClick(step, Qt::Key_Return);
+        QTest::qWait(80);
         return scene().setting("time-step").as<double>();
     };
     EXPECT_EQ(enter("0.0125"), 0.0125);
