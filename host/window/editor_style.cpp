@@ -66,4 +66,11 @@ int EditorStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, con
     return metric == PM_DockWidgetTitleBarButtonMargin ? 4 : QProxyStyle::pixelMetric(metric, option, widget);
 }
 
+int EditorStyle::styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                           QStyleHintReturn* data) const
+{
+    // On dark ground the etching of disabled text is a second, brighter text.
+    return hint == SH_EtchDisabledText ? 0 : QProxyStyle::styleHint(hint, option, widget, data);
+}
+
 }  // namespace jet::host

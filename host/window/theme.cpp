@@ -64,6 +64,7 @@ QTabWidget::pane { border: none; }
 QTabBar QToolButton { border: none; border-radius: 3px; padding: 1px; }
 QTabBar QToolButton:hover { background: #4a4e55; }
 QPushButton { background: #383b40; border: 1px solid #1b1c1f; border-radius: 4px; padding: 5px 10px; }
+QPushButton::menu-indicator { image: none; }
 QPushButton:hover { background: #44484f; }
 QPushButton:pressed { background: #2a2c30; }
 QPushButton:default { border-color: #2f6fd6; }

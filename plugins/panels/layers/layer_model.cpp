@@ -35,7 +35,8 @@ QIcon iconOf(const Item& item)
 
 const QIcon& toggleIcon(int column, bool on)
 {
-    static const QIcon icons[] = {ui::icon("eye"), ui::icon("eye-off"), ui::icon("lock"), QIcon()};
+    const auto faint = [](const char* name) { return QIcon(ui::icon(name).pixmap(32, QIcon::Disabled)); };
+    static const QIcon icons[] = {ui::icon("eye"), faint("eye-off"), ui::icon("lock"), faint("unlock")};
     return icons[column == Visible ? (on ? 0 : 1) : (on ? 2 : 3)];
 }
 
