@@ -3,6 +3,7 @@
 #include "bench/summary.hpp"
 
 #include <jet/version.hpp>
+#include <test_paths.hpp>
 
 #include <chrono>
 #include <cstdio>

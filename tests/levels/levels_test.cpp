@@ -10,6 +10,7 @@
 #include <jet/simulation.hpp>
 
 #include <gtest/gtest.h>
+#include <test_paths.hpp>
 
 #include <filesystem>
 

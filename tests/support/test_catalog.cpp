@@ -8,6 +8,7 @@
 #include <jet/ui/panel.hpp>
 
 #include <nlohmann/json.hpp>
+#include <test_paths.hpp>
 
 #include <dlfcn.h>
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>  // defines the standard library macros tested below
 
-#define JET_SDK_VERSION_MAJOR 0
-#define JET_SDK_VERSION_MINOR 1
+#define JET_SDK_VERSION_MAJOR 1
+#define JET_SDK_VERSION_MINOR 0
 #define JET_SDK_VERSION_PATCH 0
 
 #define JET_STRINGIZE_DETAIL(x) #x

@@ -1,5 +1,6 @@
 // jet project: new, check, info, save.
 #include "cli_fixture.hpp"
+#include <test_paths.hpp>
 
 namespace jet::test {
 namespace {

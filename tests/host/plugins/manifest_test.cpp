@@ -16,7 +16,7 @@ std::string refusal(const std::string& text)
 
 std::string with(const std::string& more)
 {
-    return "{\n\"id\": \"org.acme.rope\", \"name\": \"Rope\", \"version\": \"1.2\", \"jet\": \"0.1\", \"library\": "
+    return "{\n\"id\": \"org.acme.rope\", \"name\": \"Rope\", \"version\": \"1.2\", \"jet\": \"1.0\", \"library\": "
            "\"rope\"" +
            (more.empty() ? "" : ",\n" + more) + "\n}";
 }

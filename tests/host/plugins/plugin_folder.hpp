@@ -2,6 +2,7 @@
 #pragma once
 
 #include <jet/version.hpp>
+#include <test_paths.hpp>
 
 #include <cstdlib>
 #include <filesystem>

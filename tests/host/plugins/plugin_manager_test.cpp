@@ -131,11 +131,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Build{"WrittenForALaterSdk", R"("jet": "9.0")",
               "it was written for SDK 9.0.0, this JET has SDK " JET_SDK_VERSION "; use a newer JET"},
-        Build{"NotBuilt", R"("jet": "0.1")", "does not say what it was built with; build it with jet_add_plugin()"},
-        Build{"BuiltForALaterSdk", R"("jet": "0.1", "builtFor": {"sdk": "0.99.0", "abi": "x"})",
-              "it was built for SDK 0.99.0"},
-        Build{"BuiltForNoSdk", R"("jet": "0.1", "builtFor": {"sdk": "new", "abi": "x"})", "'new' is not a version"},
-        Build{"AnotherAbi", R"("jet": "0.1", "builtFor": {"sdk": "0.1.0", "abi": "msvc-19"})",
+        Build{"NotBuilt", R"("jet": "1.0")", "does not say what it was built with; build it with jet_add_plugin()"},
+        Build{"BuiltForALaterSdk", R"("jet": "1.0", "builtFor": {"sdk": "1.99.0", "abi": "x"})",
+              "it was built for SDK 1.99.0"},
+        Build{"BuiltForNoSdk", R"("jet": "1.0", "builtFor": {"sdk": "new", "abi": "x"})", "'new' is not a version"},
+        Build{"AnotherAbi", R"("jet": "1.0", "builtFor": {"sdk": "1.0.0", "abi": "msvc-19"})",
               "it was built for the compiler ABI msvc-19, this JET for " JET_ABI_TAG "; rebuild it"}),
     [](const auto& info) { return std::string(info.param.name); });
 
@@ -330,7 +330,7 @@ TEST_F(PluginManagerTest, ContributionsComeByOrderThenId)
     folder.write(
         "p",
         std::string(
-            "{ \"id\": \"org.acme.p\", \"name\": \"P\", \"version\": \"1\", \"jet\": \"0.1\", \"library\": \"p\", "
+            "{ \"id\": \"org.acme.p\", \"name\": \"P\", \"version\": \"1\", \"jet\": \"1.0\", \"library\": \"p\", "
             "\"builtFor\": { \"sdk\": \"" JET_SDK_VERSION "\", \"abi\": \"" JET_ABI_TAG "\" }, ") +
             effects(
                 R"({"id": "b", "label": "B"}, {"id": "a", "label": "A"}, {"id": "z", "label": "Z", "order": 1, "icon": "z.svg"})") +

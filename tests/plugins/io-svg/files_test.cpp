@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <test_paths.hpp>
 
 namespace jet::test {
 

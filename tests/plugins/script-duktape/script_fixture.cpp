@@ -5,6 +5,7 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
+#include <test_paths.hpp>
 
 namespace jet::test {
 
