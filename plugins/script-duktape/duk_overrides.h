@@ -10,7 +10,7 @@ extern "C" {
 /* Defined in limits.cpp. `udata` is the heap's Budget, whose first member is the fuel counted down by JET_SCRIPT_TICK. */
 int jet_script_timed_out(void *udata);
 void jet_script_out_of_memory(void *udata);
-int jet_script_stack_is_low(void *udata, int for_error);
+int jet_script_stack_is_low(void *udata);
 void jet_script_checkpoint(struct duk_hthread *thr);
 double jet_script_now_ms(struct duk_hthread *thr);
 double jet_script_random(void *udata);
@@ -24,8 +24,7 @@ double jet_script_random(void *udata);
 /* Limits. */
 #define DUK_USE_INTERRUPT_COUNTER
 #define DUK_USE_EXEC_TIMEOUT_CHECK(udata) jet_script_timed_out(udata)
-#define DUK_USE_NATIVE_STACK_CHECK() \
-	jet_script_stack_is_low(thr->heap->heap_udata, thr->heap->creating_error || thr->heap->augmenting_error)
+#define DUK_USE_NATIVE_STACK_CHECK() jet_script_stack_is_low(thr->heap->heap_udata)
 #define JET_SCRIPT_TICK(thr, cost) \
 	do { \
 		int *jet_fuel = (int *) (thr)->heap->heap_udata; \

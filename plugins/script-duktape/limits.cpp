@@ -21,7 +21,6 @@ constexpr int kFuel = 500;
 constexpr int kFuelForError = 20'000;
 // Beyond the memory limit, for the error object.
 constexpr std::size_t kReserve = 64U << 10;
-constexpr std::size_t kStackForError = 256U << 10;
 
 // Scripts are charged for the processor time of their thread: a busy computer must not stop an innocent script.
 std::chrono::nanoseconds processorTime()
@@ -82,11 +81,10 @@ bool Budget::mustStop()
     return true;
 }
 
-bool Budget::stackIsLow(bool forError) const
+bool Budget::stackIsLow() const
 {
     const char* here = static_cast<const char*>(__builtin_frame_address(0));
-    const std::size_t limit = limits_.stack + (forError ? kStackForError : 0);
-    return running_ && stackStart_ > here && static_cast<std::size_t>(stackStart_ - here) > limit;
+    return running_ && stackStart_ > here && static_cast<std::size_t>(stackStart_ - here) > limits_.stack;
 }
 
 bool Budget::reserve(std::size_t bytes)
@@ -146,10 +144,7 @@ extern "C" int jet_script_timed_out(void* udata) { return Budget::of(udata).must
 
 extern "C" void jet_script_out_of_memory(void* udata) { Budget::of(udata).memoryIsOut(); }
 
-extern "C" int jet_script_stack_is_low(void* udata, int forError)
-{
-    return Budget::of(udata).stackIsLow(forError != 0) ? 1 : 0;
-}
+extern "C" int jet_script_stack_is_low(void* udata) { return Budget::of(udata).stackIsLow() ? 1 : 0; }
 
 extern "C" void jet_script_checkpoint(duk_hthread* thr)
 {

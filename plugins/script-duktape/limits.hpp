@@ -46,8 +46,7 @@ public:
     /// Looks at the clock; true when the call must stop. Then there is fuel to make the error object, and the next
     /// question.
     bool mustStop();
-    /// An error object gets some more stack than what failed for the lack of it.
-    bool stackIsLow(bool forError) const;
+    bool stackIsLow() const;
 
     // The heap's allocator. Null when the limit is reached; Duktape then collects garbage and tries again.
     void* allocate(std::size_t size);

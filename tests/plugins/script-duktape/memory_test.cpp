@@ -10,13 +10,12 @@ namespace jet::test {
 namespace {
 
 duktape::Runtime* lastRuntime = nullptr;
-duktape::Limits limits;
 
 class WatchedEngine final : public ScriptEngine {
 public:
     std::unique_ptr<ScriptRuntime> createRuntime(Simulation& simulation) override
     {
-        auto runtime = std::make_unique<duktape::Runtime>(simulation, limits);
+        auto runtime = std::make_unique<duktape::Runtime>(simulation);
         lastRuntime = runtime.get();
         return runtime;
     }
@@ -33,7 +32,7 @@ protected:
         catalog.inCode().effect<FakeBody>("fake-body");
         scene_ = std::make_unique<Scene>("Scene 0", events_, catalog);
     }
-    ~ScriptMemoryTest() override { simulation_.reset(), scene_.reset(), limits = {}; }
+    ~ScriptMemoryTest() override { simulation_.reset(), scene_.reset(); }
 
     std::size_t used()
     {
@@ -91,22 +90,6 @@ TEST_F(ScriptMemoryTest, FailingListenersLeaveNothingBehind)
     fail(1000);
     EXPECT_EQ(errors().size(), 1100u);
     EXPECT_LE(used(), before + 1000);
-}
-
-// By default other limits are reached first, or not, as the compiler makes the frames.
-TEST_F(ScriptMemoryTest, TheNativeStackHasALimitThatIsAnErrorOfItsLine)
-{
-    limits.stack = 100U << 10;
-    for (const char* code :
-         {"(function f() { [2, 1].sort(f); })()", "/(?:a|b)*c/.test('a'.repeat(1e5))",
-          "var o = { get x() { return this.x; } }; o.x", "JSON.parse('['.repeat(1e4))", "eval('('.repeat(1e4))"})
-        script("Deep", std::string("\n") + code);
-    play();
-    ASSERT_EQ(errors().size(), 5u);
-    for (const OutputLine& error : errors()) {
-        EXPECT_NE(error.text.find("RangeError"), std::string::npos) << error.text;
-        EXPECT_EQ(error.line, 2) << error.text;
-    }
 }
 
 TEST_F(ScriptMemoryTest, AStoppedHoarderGivesItsMemoryBack)
