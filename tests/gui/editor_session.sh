@@ -9,7 +9,7 @@ jet=$1
 out=$2
 example=${3:-}
 
-for program in xvfb-run xdotool openbox; do
+for program in xvfb-run xdotool openbox import; do
     command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
 if [ "${JET_SESSION_DISPLAY:-}" = "" ]; then
@@ -27,7 +27,7 @@ editor=0
 
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 check() { local what=$1; shift; if "$@"; then echo "ok: $what"; else fail "$what"; fi; }
-shot() { command -v import >/dev/null && import -window root "$out/$1.png"; }
+shot() { import -window root "$out/$1.png"; }
 settle() { sleep "${1:-0.4}"; }
 
 start() {
@@ -64,7 +64,7 @@ click() { xdotool mousemove "$1" "$2"; settle 0.2; xdotool click 1; settle 0.2; 
 # The scene's part of two screenshots, pixel by pixel; true without ImageMagick.
 pixels() { convert "$out/$1.png" -crop 800x400+100+150 rgba:- 2>/dev/null | sha256sum; }
 same() { [ "$(pixels "$1")" = "$(pixels "$2")" ]; }
-differ() { ! command -v convert >/dev/null || ! same "$1" "$2"; }
+differ() { ! same "$1" "$2"; }
 save() { key ctrl+s; settle 0.4; }
 # All files of the project, names and bytes.
 content() { (cd "$project" && find . -type f -print0 | sort -z | xargs -0 sha256sum) | sha256sum; }
