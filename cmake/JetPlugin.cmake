@@ -6,6 +6,12 @@
 # OUTPUT_FOLDER: puts it into <folder>/<id>/ instead, where only --plugin-path finds it, and does not install it.
 #
 # Targets: <name> (the library) and <name>-objects (its objects, for unit tests).
+#
+# jet_add_plugin_test(<name> SOURCES <files>... [PLUGINS <targets>...] [LIBRARIES <targets>...] [UI])
+#
+# A GoogleTest program on the test kit Jet::Testing (#include <jet/testing/gtest.hpp>), run by ctest. It loads plugins by
+# id from where jet_add_plugin() put them, and the shipped ones from the installed JET. PLUGINS: the targets it needs
+# built; all of this CMakeLists.txt if not given. UI: it makes Qt widgets, without a display.
 
 set(JET_PLUGIN_CMAKE_DIR "${CMAKE_CURRENT_LIST_DIR}")
 
@@ -85,6 +91,10 @@ function(jet_add_plugin name)
         configure_file("${icon}" "${folder}/${icon_name}" COPYONLY)
     endforeach()
 
+    set_property(DIRECTORY APPEND PROPERTY JET_PLUGINS_HERE ${name})
+    cmake_path(GET folder PARENT_PATH searched)
+    set_property(DIRECTORY APPEND PROPERTY JET_PLUGIN_FOLDERS_HERE "${searched}")
+
     if(arg_OUTPUT_FOLDER)
         return()
     endif()
@@ -92,4 +102,45 @@ function(jet_add_plugin name)
     install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/jet/plugins/${id})
     install(FILES "${folder}/plugin.json" ${icons} DESTINATION ${CMAKE_INSTALL_LIBDIR}/jet/plugins/${id})
     set_property(GLOBAL APPEND PROPERTY JET_PLUGIN_TARGETS ${name})
+endfunction()
+
+function(jet_add_plugin_test name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "UI" "" "SOURCES;PLUGINS;LIBRARIES")
+    if(NOT arg_SOURCES)
+        message(FATAL_ERROR "jet_add_plugin_test(${name}): no SOURCES given.")
+    endif()
+    find_package(GTest QUIET)
+    if(NOT GTest_FOUND)
+        message(FATAL_ERROR "jet_add_plugin_test(${name}) needs GoogleTest; on Debian: apt-get install libgtest-dev. "
+            "Configure with -DBUILD_TESTING=OFF to build without tests.")
+    endif()
+    include(GoogleTest)
+    if(NOT arg_PLUGINS)
+        get_property(arg_PLUGINS DIRECTORY PROPERTY JET_PLUGINS_HERE)
+    endif()
+    get_property(folders DIRECTORY PROPERTY JET_PLUGIN_FOLDERS_HERE)
+    list(APPEND folders "${CMAKE_BINARY_DIR}/lib/jet/plugins")
+    list(REMOVE_DUPLICATES folders)
+
+    # Where the test finds its plugins, known to the program itself, so that it also runs without ctest.
+    set(code "#include <jet/testing/catalog.hpp>\n\n[[maybe_unused]] static const bool added = true")
+    foreach(folder IN LISTS folders)
+        string(APPEND code " &&\n    jet::test::addPluginPath(R\"(${folder})\")")
+    endforeach()
+    string(APPEND code ";\n")
+    set(paths "${CMAKE_CURRENT_BINARY_DIR}/${name}-plugin-path.cpp")
+    file(CONFIGURE OUTPUT "${paths}" CONTENT "${code}" @ONLY)
+
+    add_executable(${name} ${arg_SOURCES} "${paths}")
+    set_target_properties(${name} PROPERTIES CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON)
+    target_compile_options(${name} PRIVATE -ffp-contract=off)
+    target_link_libraries(${name} PRIVATE Jet::Testing GTest::gtest GTest::gtest_main ${arg_LIBRARIES})
+    if(arg_UI)
+        target_link_libraries(${name} PRIVATE Jet::SdkUi)
+    endif()
+    if(arg_PLUGINS)
+        add_dependencies(${name} ${arg_PLUGINS})
+    endif()
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+        PROPERTIES TIMEOUT 300 ENVIRONMENT "QT_QPA_PLATFORM=offscreen" LABELS unit)
 endfunction()

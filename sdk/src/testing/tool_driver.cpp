@@ -1,6 +1,16 @@
-#include "support/tool_fixture.hpp"
+#include <jet/testing/tool_driver.hpp>
 
 namespace jet::test {
+
+TestToolHost::~TestToolHost() = default;
+
+Pen TestToolHost::layerPen() const
+{
+    Pen pen;
+    pen.color = {0, 120, 215, 255};
+    pen.cosmetic = true;
+    return pen;
+}
 
 const Item& TestToolHost::insertionPoint(Transaction& edit)
 {
@@ -94,51 +104,20 @@ ToolDriver& ToolDriver::key(std::string_view key)
     return *this;
 }
 
-ToolFixture::ToolFixture(std::initializer_list<std::string_view> plugins)
-    : catalog_(plugins), scene_("Scene", events_, catalog_), host_(scene_), emptyHash_(scene_.hash())
+ToolDriver& ToolDriver::option(std::string_view property, Value value)
 {
+    const PropertySpec* spec = tool_->options().find(property);
+    if (!spec) throw Failure(Error("The tool has no option '" + std::string(property) + "'."));
+    spec->check(value).orThrow();
+    host_.values.set(property, std::move(value));
+    return *this;
 }
 
-ToolFixture::~ToolFixture() = default;
-
-ToolDriver& ToolFixture::tool(std::string_view id)
+RecordingPainter ToolDriver::painted() const
 {
-    auto found = tools_.find(id);
-    if (found == tools_.end()) {
-        auto made = catalog_.createTool(id, host_);
-        if (!made) throw Failure(Error(catalog_.explain(ContributionKind::Tool, id)));
-        found = tools_.emplace(std::string(id), std::make_unique<ToolDriver>(host_, std::move(made))).first;
-    }
-    if (active_ != id) {
-        if (!active_.empty()) (*tools_.find(active_)->second)->deactivate();
-        active_ = id;
-        (*found->second)->activate();
-    }
-    return *found->second;
-}
-
-std::vector<const Item*> ToolFixture::itemsOf(std::string_view type) const
-{
-    std::vector<const Item*> found;
-    scene_.root().walk([&](const Item& item) {
-        if (item.type() == type) found.push_back(&item);
-    });
-    return found;
-}
-
-std::vector<const Item*> ToolFixture::selected()
-{
-    std::vector<const Item*> found;
-    for (const ItemId id : items().selection()) found.push_back(items().find(id));
-    return found;
-}
-
-const Item& ToolFixture::add(std::string_view type, Path path, const Item* parent)
-{
-    auto edit = items().begin("Add");
-    const Item& item = edit.add(type, parent ? *parent : items().root(), std::move(path));
-    edit.commit();
-    return item;
+    RecordingPainter painter(host_.scale);
+    tool_->paint(painter);
+    return painter;
 }
 
 }  // namespace jet::test

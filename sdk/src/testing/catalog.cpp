@@ -1,4 +1,4 @@
-#include "support/test_catalog.hpp"
+#include <jet/testing/catalog.hpp>
 
 #include <jet/effect.hpp>
 #include <jet/format.hpp>
@@ -8,15 +8,15 @@
 #include <jet/ui/panel.hpp>
 
 #include <nlohmann/json.hpp>
-#include <test_paths.hpp>
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <algorithm>
 #include <any>
-#include <filesystem>
+#include <cstdlib>
 #include <fstream>
-#include <set>
+#include <tuple>
 
 namespace jet::test {
 
@@ -29,7 +29,50 @@ constexpr ContributionKind kKinds[] = {
 
 [[noreturn]] void fail(std::string message) { throw Failure(Error(std::move(message))); }
 
+std::vector<std::filesystem::path>& addedPaths()
+{
+    static std::vector<std::filesystem::path> paths;
+    return paths;
+}
+
+/// The folder of the plugins that ship with the SDK this process runs with; empty if it is not a shared library.
+std::filesystem::path shippedPlugins()
+{
+    std::filesystem::path found;
+    dl_iterate_phdr(
+        [](dl_phdr_info* info, std::size_t, void* result) {
+            const std::filesystem::path library(info->dlpi_name);
+            if (!library.filename().string().starts_with("libjet-sdk.so")) return 0;
+            *static_cast<std::filesystem::path*>(result) = (library.parent_path() / "jet" / "plugins").lexically_normal();
+            return 1;
+        },
+        &found);
+    return found;
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> pluginPath()
+{
+    std::vector<std::filesystem::path> folders;
+    if (const char* value = std::getenv("JET_TEST_PLUGIN_PATH")) {
+        std::string_view rest(value);
+        while (!rest.empty()) {
+            const std::string_view one = rest.substr(0, rest.find(':'));
+            if (!one.empty()) folders.emplace_back(one);
+            rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+        }
+    }
+    folders.insert(folders.end(), addedPaths().begin(), addedPaths().end());
+    if (auto shipped = shippedPlugins(); !shipped.empty()) folders.push_back(std::move(shipped));
+    return folders;
+}
+
+bool addPluginPath(std::filesystem::path folder)
+{
+    addedPaths().push_back(std::move(folder));
+    return true;
+}
 
 struct TestCatalog::Entry {
     Contribution contribution;
@@ -38,8 +81,13 @@ struct TestCatalog::Entry {
     std::shared_ptr<void> object;  // made on first use; tools and panels are not kept
 };
 
+struct TestCatalog::Json {
+    const nlohmann::json& json;
+};
+
 struct TestCatalog::Private {
     std::vector<std::unique_ptr<Entry>> entries;
+    std::vector<std::string> plugins;
     std::unique_ptr<Registrar> inCode;
 };
 
@@ -154,25 +202,43 @@ const JetPluginEntry& openLibrary(const std::filesystem::path& file)
 
 }  // namespace
 
-void TestCatalog::load(std::string_view pluginId)
+void TestCatalog::declare(const Json& contributes, const std::string& plugin, const std::string& version,
+                          const std::filesystem::path& folder)
 {
-    const std::string id(pluginId);
-    const std::filesystem::path folder = std::filesystem::path(JET_BINARY_DIR) / "lib/jet/plugins" / id;
-    std::ifstream file(folder / "plugin.json");
-    if (!file)
-        fail("There is no plugin " + id + " under " + folder.parent_path().string() + "; build its target first.");
-    const auto manifest = nlohmann::json::parse(file, nullptr, true, true);
-    if (manifest.at("id") != id)
-        fail(folder.string() + " holds another plugin: " + manifest.at("id").get<std::string>());
-
     for (const ContributionKind kind : kKinds) {
-        for (const auto& json : manifest.at("contributes").value(manifestKey(kind), nlohmann::json::array())) {
+        for (const auto& json : contributes.json.value(manifestKey(kind), nlohmann::json::array())) {
             auto entry = std::make_unique<Entry>();
-            entry->contribution = readContribution(json, kind, id, folder);
-            entry->version = manifest.at("version").get<std::string>();
+            entry->contribution = readContribution(json, kind, plugin, folder);
+            entry->version = version;
             d_->entries.push_back(std::move(entry));
         }
     }
+}
+
+void TestCatalog::load(std::string_view pluginId)
+{
+    const std::string id(pluginId);
+    std::string searched;
+    for (const auto& folder : pluginPath()) {
+        if (std::filesystem::exists(folder / id / "plugin.json")) return loadFolder(folder / id);
+        searched += (searched.empty() ? "" : ", ") + folder.string();
+    }
+    fail("There is no plugin " + id + " in " + (searched.empty() ? "any folder" : searched) +
+         "; build it first, or name its folder in JET_TEST_PLUGIN_PATH.");
+}
+
+void TestCatalog::loadFolder(const std::filesystem::path& folder)
+{
+    std::ifstream file(folder / "plugin.json");
+    if (!file) fail("There is no plugin.json in " + folder.string() + "; name the folder of a built plugin.");
+    const auto manifest = nlohmann::json::parse(file, nullptr, true, true);
+    const auto id = manifest.at("id").get<std::string>();
+    if (std::find(d_->plugins.begin(), d_->plugins.end(), id) != d_->plugins.end()) return;
+    d_->plugins.push_back(id);
+
+    for (const std::string& need : manifest.value("requires", std::vector<std::string>{}))
+        load(std::string_view(need).substr(0, need.find(' ')));
+    declare(Json{manifest.at("contributes")}, id, manifest.at("version").get<std::string>(), folder);
     Registrar registrar(*this, id, true);
     openLibrary(folder / (manifest.at("library").get<std::string>() + ".so")).registerContributions(registrar);
     for (const auto& entry : d_->entries)
@@ -180,6 +246,8 @@ void TestCatalog::load(std::string_view pluginId)
             fail(id + " declares the " + std::string(kindName(entry->contribution.kind)) + " '" +
                  entry->contribution.id + "' in its plugin.json, but does not register it.");
 }
+
+std::vector<std::string> TestCatalog::plugins() const { return d_->plugins; }
 
 TestCatalog::Entry* TestCatalog::find(ContributionKind kind, std::string_view id) const
 {
