@@ -1,4 +1,5 @@
 #include "commands.hpp"
+#include "package_commands.hpp"
 
 #include <jet/version.hpp>
 
@@ -93,6 +94,7 @@ void addPlugins(CLI::App& app, Parsed& parsed)
         [](Session& s, const std::string& id) { return explainContribution(s, id); });
     one("enable", "Switch a plugin on", [](Session& s, const std::string& id) { return enablePlugin(s, id, true); });
     one("disable", "Switch a plugin off", [](Session& s, const std::string& id) { return enablePlugin(s, id, false); });
+    addPackageCommands(*plugins, parsed.run);
 }
 
 void addProject(CLI::App& app, Parsed& parsed)

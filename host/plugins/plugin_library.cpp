@@ -1,8 +1,11 @@
 #include "plugin_library.hpp"
 
+#include "plugin_manager.hpp"
+
 #include <jet/effect.hpp>
 #include <jet/version.hpp>
 
+#include <dlfcn.h>
 #include <set>
 
 namespace jet::host {
@@ -62,6 +65,16 @@ void compare(ContributionKind kind, const Manifest& manifest, const Map& registe
         if (!declared.contains(id)) note(id, "registered but not declared in plugin.json");
 }
 
+/// A plugin with a widget that lies in a folder of the user does not find the SDK's part with Qt, which no headless
+/// command has loaded: it lies beside libjet-sdk.so. False where that is not the problem.
+bool provideSdkUi(std::string_view problem)
+{
+    static constexpr std::string_view name = "libjet-sdk-ui.so." JET_STRINGIZE(JET_SDK_VERSION_MAJOR);
+    if (problem.find(name) == std::string_view::npos) return false;
+    const auto file = builtInPluginFolder().parent_path().parent_path() / name;
+    return dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL) != nullptr;
+}
+
 }  // namespace
 
 Result<void> checkBuild(const Manifest& manifest)
@@ -111,8 +124,14 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Plugin& plugin,
     if (!std::filesystem::exists(file))
         return Error("its library " + file.string() + " is missing; install the plugin again");
     auto opened = std::make_unique<PluginLibrary>();
+    const auto load = [&] { opened->library_.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local); };
     try {
-        opened->library_.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local);
+        try {
+            load();
+        } catch (const std::exception& e) {
+            if (!provideSdkUi(e.what())) throw;
+            load();
+        }
     } catch (const std::exception& e) {
         return Error(std::string("its library does not load: ") + e.what());
     }
