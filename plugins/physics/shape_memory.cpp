@@ -63,7 +63,7 @@ bool isNailedDown(const SoftBodyDef& def)
 
 }  // namespace
 
-void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle handle)
+void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle handle, std::span<const Index> nodeOf)
 {
     if (isNailedDown(def) || def.borders.empty()) return;
     Groups groups(def.particles.size());
@@ -74,10 +74,9 @@ void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle han
         if (acts(spring)) springs[groups.of(spring.a)].add(spring, def);
 
     std::vector<Lattice> lattices(def.particles.size());
-    const Index firstNode = state.bodies[handle].nodes.first;
     for (Index i = 0; i < def.particles.size(); ++i) {
         Lattice& lattice = lattices[groups.of(i)];
-        lattice.nodes.push_back(firstNode + i);
+        lattice.nodes.push_back(nodeOf[i]);
         lattice.rest.push_back(def.particles[i]);
         lattice.mass += def.masses[i];
     }
@@ -105,7 +104,7 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
     for (Lattice& lattice : lattices_) {
         const Motion motion = match(nodes, lattice);
         if (!pull(nodes, lattice, motion, h)) continue;
-        if (springs.anyTorn(state.bodies[lattice.body].springs)) continue;
+        if (springs.anyTorn(lattice.body)) continue;
         removeNet(nodes, lattice, motion);
         for (std::size_t i = 0; i < lattice.nodes.size(); ++i)
             nodes.velocity[lattice.nodes[i]] += elastic_[i] + damping_[i];

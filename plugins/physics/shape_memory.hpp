@@ -22,7 +22,7 @@ class ShapeMemory {
 public:
     /// Takes the lattices of the body as their shapes. What springs do not hold in shape (ropes, hinges, loose
     /// particles), what was not built at rest, and what is nailed down has none.
-    void add(const State&, const SoftBodyDef&, BodyHandle);
+    void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
     /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
     void apply(State&, const SoftSprings&, double h);

@@ -1,5 +1,7 @@
 #include "soft_springs.hpp"
 
+#include <limits>
+
 namespace jet::physics {
 
 namespace {
@@ -29,24 +31,63 @@ double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(a
 // inside the step's reserve; beyond it the torque is held back.
 constexpr double kStiffeningReserve = 2.0;
 
-}  // namespace
+// The kernels watch for springs longer than this part of what they hold; their lengths are single.
+constexpr double kTearWatch = 0.9999;
+// Fewer springs than this are computed in double, one by one.
+constexpr std::size_t kFewSprings = 16;
+// Numbers the kernels take; outside this range, products could leave that of single.
+constexpr double kLeastSingle = 1e-15, kMostSingle = 1e15;
 
-void SoftSprings::add(const SpringDef& def, Index firstNode)
+bool isWide(const SoftBodyDef& def)
 {
-    a_.push_back(firstNode + def.a);
-    b_.push_back(firstNode + def.b);
-    rest_.push_back(def.restLength);
-    ks_.push_back(def.ks);
-    kd_.push_back(def.kd);
-    tear_.push_back(def.tearRatio > 0 ? def.restLength * def.tearRatio : 0);
-    alive_.push_back(def.a != def.b);
-    stiffness_.push_back(0);
-    dampingShare_.push_back(0);
+    const auto fits = [](double value) { return value == 0 || (value >= kLeastSingle && value <= kMostSingle); };
+    if (def.springs.size() < kFewSprings || def.particles.size() < soft::kLanes) return false;
+    for (double mass : def.masses)
+        if (!fits(mass)) return false;
+    for (const SpringDef& s : def.springs)
+        if (!fits(s.ks) || !fits(s.kd) || !fits(std::abs(s.restLength))) return false;
+    return true;
 }
 
-void SoftSprings::add(const State& state, const AngularSpringDef& def, Index firstNode)
+}  // namespace
+
+void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle body, std::span<const Index> nodeOf)
 {
-    Angular spring{firstNode + def.a, firstNode + def.centre, firstNode + def.b, def.restAngle, def.ks, def.kd, 0, 0};
+    meshes_.resize(body + std::size_t{1});
+    torn_.resize(body + std::size_t{1}, 0);
+    Mesh& mesh = meshes_[body];
+    mesh.nodes = state.bodies[body].nodes;
+    mesh.springs = {springCount(), static_cast<Index>(def.springs.size())};
+    std::vector<soft::Ends> ends;
+    for (const SpringDef& spring : def.springs) {
+        a_.push_back(nodeOf[spring.a]);
+        b_.push_back(nodeOf[spring.b]);
+        rest_.push_back(spring.restLength);
+        ks_.push_back(spring.ks);
+        kd_.push_back(spring.kd);
+        tear_.push_back(spring.tearRatio > 0 ? spring.restLength * spring.tearRatio : 0);
+        alive_.push_back(spring.a != spring.b);
+        stiffness_.push_back(0);
+        damping_.push_back(0);
+        mesh.tears |= spring.tearRatio > 0;
+        ends.push_back({a_.back() - mesh.nodes.first, b_.back() - mesh.nodes.first});
+    }
+    if (isWide(def)) {
+        mesh.blocks = soft::arrange(ends, mesh.nodes.count);
+        mesh.coefficients.assign(mesh.blocks.count() * 3 * soft::kLanes, 0);
+        measureBias(state, mesh);
+        if (mesh.tears) {
+            mesh.tear.assign(mesh.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
+            mesh.springAt.assign(mesh.tear.size(), kNone);
+            for (Index i = 0; i < mesh.springs.count; ++i) mesh.springAt[mesh.blocks.seat[i]] = mesh.springs.first + i;
+        }
+    }
+    for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
+}
+
+void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf)
+{
+    Angular spring{nodeOf[def.a], nodeOf[def.centre], nodeOf[def.b], def.restAngle, def.ks, def.kd, 0, 0};
     const Nodes& nodes = state.nodes;
     const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];
     const Vec2 armB = nodes.position[spring.b] - nodes.position[spring.centre];
@@ -62,8 +103,10 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state) const
 {
     for (Index i = 0; i < springCount(); ++i) {
         if (!alive_[i]) continue;
-        bounds.add(a_[i], ks_[i] * state.nodes.invMass[a_[i]]);
-        bounds.add(b_[i], ks_[i] * state.nodes.invMass[b_[i]]);
+        for (Index node : {a_[i], b_[i]}) {
+            bounds.add(node, ks_[i] * state.nodes.invMass[node]);
+            bounds.addDamping(node, kd_[i] * state.nodes.invMass[node]);
+        }
     }
     for (const Angular& spring : angular_) {
         const double rate = spring.ks * spring.restCompliance;
@@ -73,13 +116,7 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state) const
 
 void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h)
 {
-    for (Index i = 0; i < springCount(); ++i) {
-        const double inverse = state.nodes.invMass[a_[i]] + state.nodes.invMass[b_[i]];
-        stiffness_[i] = ks_[i] * std::min(bounds.share(a_[i], h), bounds.share(b_[i], h));
-        // The stiffness taken away acts on through its implicit part, h ks v: as damping, which costs no stability.
-        const double damping = kd_[i] + h * (ks_[i] - stiffness_[i]);
-        dampingShare_[i] = inverse > 0 ? h * damping / (1 + h * damping * inverse) : 0;
-    }
+    for (Mesh& mesh : meshes_) prepareMesh(state, bounds, mesh, h);
     for (Angular& spring : angular_) {
         const double share =
             std::min({bounds.share(spring.a, h), bounds.share(spring.centre, h), bounds.share(spring.b, h)});
@@ -88,46 +125,155 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
     }
 }
 
-void SoftSprings::apply(State& state, double h, bool backwards)
+void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, Mesh& mesh, double h)
 {
-    if (backwards) {
-        for (Index i = springCount(); i-- > 0;) applySpring(state, i, h);
-        for (std::size_t i = angular_.size(); i-- > 0;) applyAngular(state, angular_[i], h);
-    } else {
-        for (Index i = 0; i < springCount(); ++i) applySpring(state, i, h);
-        for (Angular& spring : angular_) applyAngular(state, spring, h);
+    const Nodes& nodes = state.nodes;
+    const auto stable = [&](Index n) { return h * h * bounds.elastic(n) + 2 * h * bounds.damping(n) <= 2; };
+    const auto share = [&](Index n) { return stable(n) ? 1.0 : bounds.share(n, h); };
+    load_.assign(mesh.nodes.count, 0.0);
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+        const double inverse = nodes.invMass[a_[i]] + nodes.invMass[b_[i]];
+        stiffness_[i] = ks_[i] * std::min(share(a_[i]), share(b_[i]));
+        // The stiffness taken away acts on through its implicit part, h ks v.
+        const double wanted = kd_[i] + h * (ks_[i] - stiffness_[i]);
+        damping_[i] = inverse > 0 ? (1 - decay(h * wanted * inverse)) / (h * inverse) : 0;
+        if (!alive_[i]) continue;
+        for (Index node : {a_[i], b_[i]}) load_[node - mesh.nodes.first] += h * damping_[i] * nodes.invMass[node];
+    }
+    for (Index k = 0; k < mesh.nodes.count; ++k) {
+        const Index node = mesh.nodes.first + k;
+        const double elastic = h * h * bounds.elastic(node);
+        const double room = 1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0));
+        load_[k] = load_[k] > room ? room / load_[k] : 1;
+    }
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
+        damping_[i] *= std::min(load_[a_[i] - mesh.nodes.first], load_[b_[i] - mesh.nodes.first]);
+    fillLanes(mesh);
+}
+
+/// A body drawn at rest shall rest: what rounding to single adds to the lengths of springs is added to what they rest
+/// at.
+void SoftSprings::measureBias(const State& state, Mesh& mesh)
+{
+    const Vec2& origin = state.nodes.position[mesh.nodes.first];
+    const auto place = [&](Index node, int axis) {
+        return static_cast<float>(state.nodes.position[node][axis] - origin[axis]);
+    };
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+        const Index low = std::min(a_[i], b_[i]), high = std::max(a_[i], b_[i]);
+        const float x = place(low, 0) - place(high, 0), y = place(low, 1) - place(high, 1);
+        const double length = (state.nodes.position[low] - state.nodes.position[high]).norm();
+        mesh.bias.push_back(static_cast<float>(static_cast<double>(std::sqrt(x * x + y * y)) - length));
     }
 }
 
-bool SoftSprings::anyTorn(Range springs) const
+void SoftSprings::fillLanes(Mesh& mesh)
 {
-    for (Index i = springs.first; i < springs.end(); ++i)
-        if (!alive_[i] && a_[i] != b_[i]) return true;
-    return false;
+    if (mesh.coefficients.empty()) return;
+    for (Index k = 0; k < mesh.springs.count; ++k) {
+        const Index i = mesh.springs.first + k;
+        const std::uint32_t block = mesh.blocks.seat[k] / soft::kLanes, lane = mesh.blocks.seat[k] % soft::kLanes;
+        float* at = mesh.coefficients.data() + std::size_t{block} * 3 * soft::kLanes + lane;
+        at[0] = static_cast<float>(rest_[i] + mesh.bias[k]);
+        at[soft::kLanes] = alive_[i] ? static_cast<float>(stiffness_[i]) : 0;
+        at[2 * soft::kLanes] = alive_[i] ? static_cast<float>(damping_[i]) : 0;
+        if (!mesh.tear.empty())
+            mesh.tear[mesh.blocks.seat[k]] = alive_[i] && tear_[i] > 0 ? static_cast<float>(kTearWatch * tear_[i])
+                                                                       : std::numeric_limits<float>::max();
+    }
 }
 
-void SoftSprings::applySpring(State& state, Index i, double h)
+void SoftSprings::addForces(State& state, double h)
 {
-    if (!alive_[i]) return;
+    static_cast<void>(h);
+    for (Mesh& mesh : meshes_) {
+        if (mesh.springs.count == 0) continue;
+        if (mesh.coefficients.empty()) {
+            pullOneByOne(state, mesh);
+        } else {
+            pullWide(state, mesh);
+        }
+    }
+}
+
+void SoftSprings::pullWide(State& state, Mesh& mesh)
+{
     Nodes& nodes = state.nodes;
-    const Index a = a_[i], b = b_[i];
-    const Vec2 apart = nodes.position[a] - nodes.position[b];
-    const double length = std::sqrt(apart.squaredNorm());
-    if (tear_[i] > 0 && length > tear_[i]) {
-        alive_[i] = 0;
-        return;
-    }
-    if (!(length > 1e-12)) return;
-    const Vec2 along = apart / length;
-    const double invA = nodes.invMass[a], invB = nodes.invMass[b];
-    const double elastic = h * stiffness_[i] * (length - rest_[i]);
-    const double speed = (nodes.velocity[a] - nodes.velocity[b]).dot(along) - (invA + invB) * elastic;
-    const Vec2 impulse = (elastic + dampingShare_[i] * speed) * along;
-    nodes.velocity[a] -= invA * impulse;
-    nodes.velocity[b] += invB * impulse;
+    const Index first = mesh.nodes.first;
+    const Vec2 &at = nodes.position[first], &moving = nodes.velocity[first];
+    relative_.resize(std::max<std::size_t>(relative_.size(), 4 * std::size_t{mesh.nodes.count}));
+    tornBlocks_.resize(std::max(tornBlocks_.size(), mesh.blocks.count()));
+    kernels_->relate(nodes.position[first].data(), nodes.velocity[first].data(), mesh.nodes.count,
+                     {at.x(), at.y(), moving.x(), moving.y()}, relative_.data());
+    const soft::SpringBlocks blocks{mesh.blocks.runs.data(),  mesh.blocks.runs.size(),
+                                    mesh.blocks.ends.data(),  mesh.blocks.ends.size() / (2 * soft::kLanes),
+                                    mesh.coefficients.data(), mesh.tear.empty() ? nullptr : mesh.tear.data(),
+                                    tornBlocks_.data()};
+    const std::size_t torn = kernels_->pull(blocks, relative_.data(), nodes.force[first].data());
+    for (std::size_t i = 0; i < torn; ++i) tearIn(state, mesh, tornBlocks_[i]);
 }
 
-void SoftSprings::applyAngular(State& state, Angular& spring, double h)
+/// The kernels only warn: whether a spring of the block is too long is decided in double, so that it tears at exactly
+/// its length. Its last force, of a length that differs by rounding, still acts.
+void SoftSprings::tearIn(const State& state, Mesh& mesh, std::size_t block)
+{
+    for (Index lane = 0; lane < soft::kLanes; ++lane) {
+        const Index i = mesh.springAt[block * soft::kLanes + lane];
+        if (i == kNone || !alive_[i] || !(tear_[i] > 0)) continue;
+        const double length = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm();
+        if (length > tear_[i]) tear(mesh, i);
+    }
+}
+
+void SoftSprings::tear(Mesh& mesh, Index spring)
+{
+    alive_[spring] = 0;
+    ++torn_[&mesh - meshes_.data()];
+    if (mesh.coefficients.empty()) return;
+    const std::uint32_t seat = mesh.blocks.seat[spring - mesh.springs.first];
+    float* at = mesh.coefficients.data() + std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes;
+    at[soft::kLanes] = at[2 * soft::kLanes] = 0;
+    mesh.tear[seat] = std::numeric_limits<float>::max();
+}
+
+void SoftSprings::pullOneByOne(State& state, const Mesh& mesh)
+{
+    Nodes& nodes = state.nodes;
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+        if (!alive_[i]) continue;
+        const Index a = a_[i], b = b_[i];
+        const Vec2 apart = nodes.position[a] - nodes.position[b];
+        const double length = std::sqrt(apart.squaredNorm());
+        if (tear_[i] > 0 && length > tear_[i]) {
+            tear(const_cast<Mesh&>(mesh), i);
+            continue;
+        }
+        if (!(length > 1e-12)) continue;
+        const Vec2 along = apart / length;
+        const double speed = (nodes.velocity[a] - nodes.velocity[b]).dot(along);
+        const Vec2 force = (stiffness_[i] * (length - rest_[i]) + damping_[i] * speed) * along;
+        nodes.force[a] -= force;
+        nodes.force[b] += force;
+    }
+}
+
+void SoftSprings::restored()
+{
+    for (std::size_t body = 0; body < meshes_.size(); ++body) {
+        Mesh& mesh = meshes_[body];
+        torn_[body] = 0;
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) torn_[body] += !alive_[i] && a_[i] != b_[i];
+        fillLanes(mesh);
+    }
+}
+
+void SoftSprings::applyAngular(State& state, double h, bool backwards)
+{
+    for (std::size_t i = 0; i < angular_.size(); ++i)
+        applyAngularSpring(state, angular_[backwards ? angular_.size() - 1 - i : i], h);
+}
+
+void SoftSprings::applyAngularSpring(State& state, Angular& spring, double h)
 {
     Nodes& nodes = state.nodes;
     const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];

@@ -1,12 +1,17 @@
-// Springs and angular springs inside soft bodies (thesis §2.4.3.2, §2.4.3.3), one structure of arrays for the whole
-// world.
+// Springs and angular springs inside soft bodies (thesis §2.4.3.2, §2.4.3.3).
 //
-// Stiffness is explicit in symplectic Euler: exact in frequency while omega h is small, and never gaining energy on
-// average while omega h < 2; StiffnessBounds keeps it below. Damping is a pairwise impulse that can take away at most
-// the relative velocity along the spring, so no damping constant is too large. Fully implicit springs were the
-// alternative: stable at any stiffness too, but they damp what the author asked to swing.
+// Order of calls: add each body -> addTo the bounds -> prepare for a substep length -> addForces and applyAngular, each
+// substep.
+//
+// Springs are forces of the state a substep starts from, 8 at a time (soft/kernels.hpp), so their order does not
+// matter. Why no stiffness and no damping explodes stands in stiffness.hpp. The damping constant of a substep is
+// (1 - exp(-h kd w)) / (h w), w = 1/m + 1/m: the amplitude of a single spring then decays exactly as exp(-kd w t / 2).
+// Fully implicit springs were an alternative: stable at any stiffness too, but they damp what the author asked to
+// swing.
 #pragma once
 
+#include "soft/kernels.hpp"
+#include "soft/layout.hpp"
 #include "state.hpp"
 #include "stiffness.hpp"
 
@@ -17,20 +22,25 @@ public:
     Index springCount() const { return static_cast<Index>(a_.size()); }
     Index angularCount() const { return static_cast<Index>(angular_.size()); }
 
-    /// `firstNode` is added to the definition's particle indices.
-    void add(const SpringDef&, Index firstNode);
-    void add(const State&, const AngularSpringDef&, Index firstNode);
+    /// The springs of the world's newest body; `nodeOf`: particle -> node of the world.
+    void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
     void addTo(StiffnessBounds&, const State&) const;
-    /// Fixes what depends on the step: softened stiffness where the step is too long for it, damping shares.
+    /// Fixes what depends on the length of a substep.
     void prepare(const State&, const StiffnessBounds&, double h);
-    /// Changes velocities by the springs' impulses over h. `backwards` alternates, so that no end of the list is
-    /// favoured.
-    void apply(State&, double h, bool backwards);
+
+    void use(const soft::Kernels& kernels) { kernels_ = &kernels; }
+    const soft::Kernels& kernels() const { return *kernels_; }
+
+    /// Adds the springs' forces on the nodes of each body.
+    void addForces(State&, double h);
+    /// Changes velocities by the impulses of angular springs over h. `backwards` alternates, so that no end of the list
+    /// is favoured.
+    void applyAngular(State&, double h, bool backwards);
 
     bool alive(Index spring) const { return alive_[spring] != 0; }
     /// Springs from a particle to itself never were whole, and never tear.
-    bool anyTorn(Range springs) const;
+    bool anyTorn(Index body) const { return torn_[body] > 0; }
 
     template <class Archive>
     void archive(Archive& with)
@@ -38,6 +48,8 @@ public:
         with(alive_);
         for (Angular& spring : angular_) with(spring.angle);
     }
+    /// After alive_ was read back.
+    void restored();
 
 private:
     struct Angular {
@@ -48,15 +60,39 @@ private:
         double stiffness = 0;   // ks after softening
         double damping = 0;     // kd and what softening adds
     };
+    /// Springs of one body as the kernels take them.
+    struct Mesh {
+        Range nodes, springs;
+        soft::Blocks blocks;
+        std::vector<float> coefficients;      // see SpringBlocks; empty: the body is computed in double, one by one
+        std::vector<float> tear;              // empty: none tears
+        std::vector<float> bias;              // [springs] what single lengths differ by from true ones, as added
+        std::vector<std::uint32_t> springAt;  // [blocks * 8] spring of each lane; filled where springs tear
+        bool tears = false;
+    };
 
-    void applySpring(State&, Index spring, double h);
-    void applyAngular(State&, Angular&, double h);
+    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf);
+    void prepareMesh(const State&, const StiffnessBounds&, Mesh&, double h);
+    void measureBias(const State&, Mesh&);
+    void fillLanes(Mesh&);
+    void pullWide(State&, Mesh&);
+    void pullOneByOne(State&, const Mesh&);
+    void tearIn(const State&, Mesh&, std::size_t block);
+    void tear(Mesh&, Index spring);
+    void applyAngularSpring(State&, Angular&, double h);
 
+    const soft::Kernels* kernels_ = &soft::bestKernels();
     std::vector<Index> a_, b_;                   // nodes
     std::vector<double> rest_, ks_, kd_, tear_;  // tear_: length, 0 = never
     std::vector<std::uint8_t> alive_;
-    std::vector<double> stiffness_, dampingShare_;  // for the prepared h
+    std::vector<double> stiffness_, damping_;  // for the prepared h
+    std::vector<Mesh> meshes_;                 // [bodies]; rigid ones have no springs
+    std::vector<Index> torn_;                  // [bodies] number of torn springs
     std::vector<Angular> angular_;
+    // Scratch of the body at work.
+    std::vector<float> relative_;
+    std::vector<std::uint32_t> tornBlocks_;
+    std::vector<double> load_;
 };
 
 }  // namespace jet::physics

@@ -54,15 +54,20 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     BodyRecord& body = newBody(def.common, false);
     const auto count = static_cast<Index>(def.particles.size());
     body.nodes.count = body.points.count = count;
-    for (Index i = 0; i < count; ++i) {
+    // Points keep the order of the definition; nodes take one that suits the springs.
+    const std::vector<Index> particleOf = soft::orderOf(def);
+    std::vector<Index> nodeOf(count);
+    for (Index k = 0; k < count; ++k) {
+        const Index i = particleOf[k];
         const bool moves = !def.common.fixed && (def.movable.empty() || def.movable[i] != 0);
         state_.nodes.add(handle, def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0, 0);
-        addPoint(body.nodes.first + i, Vec2(0, 0), def.particles[i]);
+        nodeOf[i] = body.nodes.first + k;
     }
+    for (Index i = 0; i < count; ++i) addPoint(nodeOf[i], Vec2(0, 0), def.particles[i]);
     body.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
     Vec2 centre(0, 0);
     for (Index i = 0; i < count; ++i) centre += def.masses[i] / body.mass * def.particles[i];
-    for (Index i = 0; i < count; ++i) body.restArms.push_back(def.particles[i] - centre);
+    for (Index i : particleOf) body.restArms.push_back(def.particles[i] - centre);
 
     std::vector<std::vector<Index>> rings = def.borders;
     for (auto& ring : rings)
@@ -72,11 +77,10 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     for (const Vec2& at : def.particles) bounds.extend(at);
     body.length = typicalLength(measureRegion(state_, body), bounds);
 
-    for (const SpringDef& spring : def.springs) springs_.add(spring, body.nodes.first);
-    for (const AngularSpringDef& spring : def.angularSprings) springs_.add(state_, spring, body.nodes.first);
+    springs_.add(state_, def, handle, nodeOf);
     body.springs.count = static_cast<Index>(def.springs.size());
     body.angularSprings.count = static_cast<Index>(def.angularSprings.size());
-    shapes_.add(state_, def, handle);
+    shapes_.add(state_, def, handle, nodeOf);
     return finishBody(def.common);
 }
 
@@ -141,7 +145,7 @@ BodyHandle World::finishBody(const BodyCommon& common)
     readings.bounds.push_back(Box());
     readings.firstPoint.push_back(static_cast<Index>(state_.points.size()));
     stepForces_.resize(state_.nodes.size());
-    fastest_ = -1;
+    rate_ = -1;
     updateReading(state_, handle);
     setVelocity(handle, common.velocity);
     setOmega(handle, common.omega);
@@ -168,14 +172,14 @@ void validate(const AngularSpringActuatorDef& def, std::size_t bodies)
 ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 {
     validate(def, bodyCount());
-    fastest_ = -1;
+    rate_ = -1;
     return actuators_.add(state_, def);
 }
 
 ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 {
     validate(def, bodyCount());
-    fastest_ = -1;
+    rate_ = -1;
     return actuators_.add(state_, def);
 }
 

@@ -72,7 +72,7 @@ private:
     StepStats stats_;
 
     StiffnessBounds bounds_;
-    double fastest_ = -1;     // rad / s; < 0: not known since something was added
+    double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added
     double preparedFor_ = 0;  // substep the springs are prepared for, seconds
 };
 

@@ -164,6 +164,7 @@ void World::restore(std::span<const std::byte> bytes)
         if (!archiveIn.finished()) RestoreArchive::fail();
         for (const ContactPoint& c : contacts_)
             if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
+        springs_.restored();
     };
     try {
         read(bytes);

@@ -34,7 +34,7 @@ void World::step(double dt)
     stats_ = StepStats();
     ended_.clear();
     prepareStiffness();
-    const int count = substepsFor(dt, fastest_);
+    const int count = substepsFor(dt, rate_);
     const double h = dt / count;
     if (h != preparedFor_) {
         springs_.prepare(state_, bounds_, h);
@@ -71,11 +71,13 @@ void World::step(double dt)
 /// What depends on which springs there are, worked out again only after something was added.
 void World::prepareStiffness()
 {
-    if (fastest_ >= 0) return;
+    if (rate_ >= 0) return;
     bounds_.reset(state_.nodes.size());
     springs_.addTo(bounds_, state_);
     actuators_.addTo(bounds_, state_);
-    fastest_ = bounds_.fastest();
+    rate_ = 0;
+    for (const BodyRecord& body : state_.bodies)
+        rate_ = std::max({rate_, bounds_.stableRate(body.nodes), bounds_.fastest(body.nodes) / phaseOf(body)});
     preparedFor_ = 0;
 }
 
@@ -86,9 +88,10 @@ void World::substep(double h, int index)
         state_.nodes.force = stepForces_;
         std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
         actuators_.addForces(state_);
+        springs_.addForces(state_, h);
         integrateVelocities(state_, settings_, h);
         const bool backwards = index % 2 == 1;
-        springs_.apply(state_, h, backwards);
+        springs_.applyAngular(state_, h, backwards);
         shapes_.apply(state_, springs_, h);
         actuators_.applySprings(state_, h, backwards);
     }
