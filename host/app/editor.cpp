@@ -1,5 +1,6 @@
 #include "editor.hpp"
 
+#include "host/plugins/plugin_control.hpp"
 #include "host/window/launch.hpp"
 
 #include <cstdio>
@@ -53,8 +54,9 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
     }
     Session session(global);
     PluginManager& plugins = session.plugins();
-    const WindowLaunch launch{plugins, session.events(), project, global.safeMode,
-                              [&plugins] { return plugins.problems(); }};
+    PluginControl control(plugins, session.events());
+    const WindowLaunch launch{
+        plugins, session.events(), project, global.safeMode, [&plugins] { return plugins.problems(); }, &control};
     return run(argc, argv, launch);
 }
 

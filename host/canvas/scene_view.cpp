@@ -126,7 +126,7 @@ void SceneView::setTool(const std::string& id)
         found = tools_.emplace(id, std::make_unique<ToolSession>(id, scene_, editor_, options_, surface)).first;
     }
     tool_ = found->second.get();
-    if (!tool_->tool()) editor_.showMessage(editor_.catalog().explain(ContributionKind::Tool, id));
+    if (!tool_->tool()) editor_.showMissing(ContributionKind::Tool, id);
     tool_->activate();
     update();
 }

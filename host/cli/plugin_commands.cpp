@@ -93,7 +93,7 @@ int explainContribution(Session& session, const std::string& id)
     PluginManager& plugins = session.plugins();
     const std::string name = !id.empty() && id.front() == '.' ? id.substr(1) : id;
     bool found = false;
-    for (int k = 0; k <= static_cast<int>(ContributionKind::Command); ++k) {
+    for (int k = 0; k < kContributionKinds; ++k) {
         const auto kind = static_cast<ContributionKind>(k);
         const std::string sentence = plugins.explain(kind, name);
         if (sentence.starts_with("No installed")) continue;

@@ -5,21 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <cstdlib>
-#include <sstream>
 
 namespace jet::host {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path configFolder()
-{
-    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config) return fs::path(config) / "jet";
-    const char* home = std::getenv("HOME");
-    return home && *home ? fs::path(home) / ".config" / "jet" : fs::path();
-}
 
 // A set is JSON: { "name": "...", "plugins": ["org.jet.…", …] }; by path, or by name beside the built-in plugins.
 std::set<std::string> readSet(const std::string& name)
@@ -39,28 +30,6 @@ std::set<std::string> readSet(const std::string& name)
 
 }  // namespace
 
-std::set<std::string> readDisabledPlugins()
-{
-    std::set<std::string> ids;
-    const fs::path file = configFolder() / "disabled-plugins";
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) return ids;
-    const auto text = readFile(file);
-    std::istringstream lines(text ? *text : std::string());
-    for (std::string line; std::getline(lines, line);)
-        if (!line.empty()) ids.insert(line);
-    return ids;
-}
-
-Result<void> writeDisabledPlugins(const std::set<std::string>& ids)
-{
-    std::error_code ignored;
-    fs::create_directories(configFolder(), ignored);
-    std::string text;
-    for (const std::string& id : ids) text += id + "\n";
-    return writeFileAtomically(configFolder() / "disabled-plugins", text);
-}
-
 Session::Session(GlobalOptions options) : options_(std::move(options)) {}
 
 PluginManager& Session::plugins()
@@ -78,6 +47,7 @@ PluginManager& Session::plugins()
     options.searchPath.push_back(options.builtIn);
     options.without = {options_.without.begin(), options_.without.end()};
     options.disabled = readDisabledPlugins();
+    if (const fs::path config = userConfigFolder(); !config.empty()) options.settings = config / "settings";
     options.safeMode = options_.safeMode;
     if (!options_.set.empty()) options.only = readSet(options_.set);
     plugins_ = std::make_unique<PluginManager>(std::move(options));

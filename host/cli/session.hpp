@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/plugins/plugin_manager.hpp"
+#include "host/plugins/user_choice.hpp"
 
 #include <jet/events.hpp>
 #include <jet/result.hpp>
@@ -26,10 +27,6 @@ struct GlobalOptions {
     bool json = false;
     bool verbose = false;
 };
-
-/// The plugins the user switched off: $XDG_CONFIG_HOME/jet/disabled-plugins, one id a line.
-std::set<std::string> readDisabledPlugins();
-Result<void> writeDisabledPlugins(const std::set<std::string>& ids);
 
 class Session {
 public:

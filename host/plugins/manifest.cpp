@@ -166,10 +166,10 @@ private:
 
     ContributionKind kindOf(const std::string& key) const
     {
-        for (int k = 0; k <= static_cast<int>(ContributionKind::Command); ++k)
+        for (int k = 0; k < kContributionKinds; ++k)
             if (manifestKey(static_cast<ContributionKind>(k)) == key) return static_cast<ContributionKind>(k);
         std::string known;
-        for (int k = 0; k <= static_cast<int>(ContributionKind::Command); ++k)
+        for (int k = 0; k < kContributionKinds; ++k)
             known += (k ? ", " : "") + std::string(manifestKey(static_cast<ContributionKind>(k)));
         fail(key, "is not a kind of contribution; known are " + known);
     }

@@ -5,19 +5,18 @@
 #include "manifest.hpp"
 
 #include <jet/plugin.hpp>
+#include <jet/plugins.hpp>
+#include <jet/settings.hpp>
 
 #include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 
 namespace jet::host {
-
-/// Found -> Valid -> Resolved -> Loaded -> Active, or Disabled, Shadowed, Faulted; see docs/plugins.md.
-enum class PluginState { Found, Valid, Resolved, Loaded, Active, Disabled, Shadowed, Faulted };
-std::string_view stateName(PluginState state);
 
 /// The factories a loaded plugin registered.
 struct Registrations {
@@ -30,6 +29,9 @@ struct Registrations {
     std::map<std::string, PluginRegistrar::Factory<PhysicsEngine>, std::less<>> physicsEngines;
     std::map<std::string, PluginRegistrar::Factory<ScriptEngine>, std::less<>> scriptEngines;
     std::map<std::string, PluginRegistrar::Factory<Command>, std::less<>> commands;
+    std::map<std::string, std::shared_ptr<Settings>, std::less<>> settings;
+    /// Opens a settings page that is being registered; empty: pages are kept in memory.
+    std::function<std::shared_ptr<Settings>(std::string_view page, const PropertyTable& table)> openSettings;
 };
 
 class PluginLibrary;
@@ -41,6 +43,7 @@ struct Plugin {
     std::string reason;  ///< why it is Disabled, Shadowed or Faulted
     std::unique_ptr<PluginLibrary> library;
     Registrations registrations;
+    std::filesystem::path mapped;  ///< the file its library was loaded from
     double loadMs = 0;
     std::atomic<std::uint64_t> calls{0};
 
@@ -52,5 +55,8 @@ struct Plugin {
     /// "Rectangle (org.jet.tool.rectangle 1.0.0)".
     std::string title() const;
 };
+
+/// What the calls into it cost so far, by callback. [any thread]
+std::vector<CallbackCost> callbackCosts(const Plugin& plugin);
 
 }  // namespace jet::host

@@ -10,15 +10,6 @@
 
 namespace jet::host {
 
-std::string_view stateName(PluginState state)
-{
-    static constexpr std::string_view names[] = {"found",  "valid",    "resolved", "loaded",
-                                                 "active", "disabled", "shadowed", "faulted"};
-    return names[static_cast<int>(state)];
-}
-
-std::string Plugin::title() const { return manifest.name + " (" + manifest.id + " " + manifest.version.text() + ")"; }
-
 namespace {
 
 class Collector final : public PluginRegistrar {
@@ -39,6 +30,12 @@ public:
         add(target_.scriptEngines, id, std::move(f));
     }
     void addCommand(std::string_view id, Factory<Command> f) override { add(target_.commands, id, std::move(f)); }
+    std::shared_ptr<Settings> addSettingsPage(std::string_view id, const PropertyTable& table) override
+    {
+        auto page = target_.openSettings ? target_.openSettings(id, table) : settingsInMemory(table);
+        add(target_.settings, id, page);
+        return page;
+    }
 
 private:
     template <class Map, class F>
@@ -112,6 +109,7 @@ Result<void> checkRegistrations(const Manifest& manifest, const Registrations& r
     compare(ContributionKind::PhysicsEngine, manifest, registered.physicsEngines, difference);
     compare(ContributionKind::ScriptEngine, manifest, registered.scriptEngines, difference);
     compare(ContributionKind::Command, manifest, registered.commands, difference);
+    compare(ContributionKind::SettingsPage, manifest, registered.settings, difference);
     if (difference.empty()) return {};
     return Error("what it declares and what it registers differ: " + difference +
                  "; make plugin.json and JET_PLUGIN agree");

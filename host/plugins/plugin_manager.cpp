@@ -28,7 +28,7 @@ fs::path userPluginFolder()
     return home && *home ? fs::path(home) / ".local" / "share" / "jet" / "plugins" : fs::path();
 }
 
-PluginManager::PluginManager(PluginOptions options) : options_(std::move(options)) {}
+PluginManager::PluginManager(PluginOptions options) : options_(std::move(options)), settingsStore_(options_.settings) {}
 PluginManager::~PluginManager() = default;
 
 void PluginManager::scan()
@@ -203,6 +203,9 @@ void PluginManager::loadOrFault(Plugin& plugin)
     }
     const auto before = std::chrono::steady_clock::now();
     Registrations registrations;
+    registrations.openSettings = [&](std::string_view page, const PropertyTable& table) {
+        return settingsStore_.page(plugin.manifest.id, std::string(page), table);
+    };
     auto opened = PluginLibrary::open(plugin, registrations);
     Result<void> fine = opened ? checkRegistrations(plugin.manifest, registrations) : Result<void>(opened.error());
     plugin.loadMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
@@ -215,6 +218,7 @@ void PluginManager::loadOrFault(Plugin& plugin)
         return;
     }
     plugin.library = std::move(*opened);
+    plugin.mapped = plugin.folder / (plugin.manifest.library + ".so");
     plugin.registrations = std::move(registrations);
     plugin.state = PluginState::Loaded;
 }
@@ -322,6 +326,12 @@ ScriptEngine* PluginManager::scriptEngine(std::string_view id)
 Command* PluginManager::command(std::string_view id)
 {
     return shared(commands_, ContributionKind::Command, id, &Registrations::commands);
+}
+
+std::shared_ptr<Settings> PluginManager::settings(std::string_view page)
+{
+    Plugin* plugin = ready(ContributionKind::SettingsPage, page);
+    return plugin ? plugin->registrations.settings.find(page)->second : nullptr;
 }
 
 std::unique_ptr<Tool> PluginManager::createTool(std::string_view id, ToolHost& host)

@@ -4,6 +4,7 @@
 
 #include "guarded.hpp"
 #include "plugin.hpp"
+#include "settings_store.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,7 @@ struct PluginOptions {
     std::optional<std::set<std::string>> only;      ///< a plugin set; none: all
     bool safeMode = false;                          ///< only what ships with the program
     std::filesystem::path builtIn;                  ///< the folder of what ships
+    std::filesystem::path settings;                 ///< the folder of plugins' settings; empty: kept in memory
 };
 
 /// The folder of the plugins that ship with this program: beside libjet-sdk.so, jet/plugins.
@@ -47,6 +49,10 @@ public:
     std::vector<std::string> problems() const;
     /// Told of each failure inside a plugin. [thread of the failing call]
     void setProblemHandler(std::function<void(const PluginProblem&)> handler) { guard_.onProblem = std::move(handler); }
+
+    /// The values of a settings page; loads its plugin. Null when there is none.
+    std::shared_ptr<Settings> settings(std::string_view page);
+    SettingsStore& settingsStore() { return settingsStore_; }
 
     std::vector<Contribution> contributions(ContributionKind kind) const override;
     const ItemType* itemType(std::string_view id) override;
@@ -88,6 +94,7 @@ private:
     T* shared(Table<T>& table, ContributionKind kind, std::string_view id, Map Registrations::*factories);
 
     PluginOptions options_;
+    SettingsStore settingsStore_;
     Guard guard_;
     std::map<std::string, std::unique_ptr<Plugin>, std::less<>> plugins_;
     std::vector<std::unique_ptr<Plugin>> shadowed_;

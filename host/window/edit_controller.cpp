@@ -224,7 +224,7 @@ void EditController::fillEffectsMenu(QMenu& menu)
 void EditController::applyEffect(const std::string& id)
 {
     const Effect* effect = editor_.catalog().effect(id);
-    if (!effect) return editor_.showMessage(editor_.catalog().explain(ContributionKind::Effect, id));
+    if (!effect) return editor_.showMissing(ContributionKind::Effect, id);
     Scene& front = readyScene();
     try {
         auto edit = front.items().begin("Apply effect");

@@ -46,7 +46,7 @@ bool FormatController::importFile(const std::filesystem::path& file)
     if (SceneView* view = documents_.currentView()) view->endGesture();
     Importer* importer = editor_.catalog().importer(extensionOf(file));
     if (!importer) {
-        editor_.showMessage(editor_.catalog().explain(ContributionKind::Importer, extensionOf(file)));
+        editor_.showMissing(ContributionKind::Importer, extensionOf(file));
         return false;
     }
     const Result<std::string> content = readFile(file);
@@ -77,7 +77,7 @@ bool FormatController::exportFile(const std::filesystem::path& file)
     if (!scene) return false;
     Exporter* exporter = editor_.catalog().exporter(extensionOf(file));
     if (!exporter) {
-        editor_.showMessage(editor_.catalog().explain(ContributionKind::Exporter, extensionOf(file)));
+        editor_.showMissing(ContributionKind::Exporter, extensionOf(file));
         return false;
     }
     documents_.commitScripts();

@@ -4,6 +4,7 @@
 
 #include <jet/catalog.hpp>
 #include <jet/events.hpp>
+#include <jet/plugins.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -20,6 +21,7 @@ struct WindowLaunch {
     bool safeMode = false;          ///< started with the shipped plugins only: said in the title
     /// Sentences about plugins that are faulted or were refused; may be empty.
     std::function<std::vector<std::string>()> pluginProblems;
+    jet::PluginsCenter* plugins = nullptr;  ///< null: there are none to manage
 };
 
 }  // namespace jet::host

@@ -40,9 +40,10 @@ QString number(double value, int decimals) { return QString::number(value, 'f', 
 }  // namespace
 
 MainWindow::MainWindow(const WindowLaunch& launch)
-    : catalog_(launch.catalog), events_(launch.events), safeMode_(launch.safeMode),
-      pluginProblems_(launch.pluginProblems), pump_(launch.events), simulation_(launch.events),
-      messages_(new MessageBar(nullptr)), documents_(new Documents(*this, toolOptions_, nullptr)),
+    : catalog_(launch.catalog), noPlugins_(launch.catalog), plugins_(launch.plugins ? *launch.plugins : noPlugins_),
+      events_(launch.events), safeMode_(launch.safeMode), pluginProblems_(launch.pluginProblems), pump_(launch.events),
+      simulation_(launch.events), messages_(new MessageBar(nullptr)),
+      documents_(new Documents(*this, toolOptions_, nullptr)),
       actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
       projects_(*this, *documents_, this), formats_(*this, *documents_, this), edits_(*this, *documents_, this),
       player_(*this, *documents_, this), tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this),
@@ -127,7 +128,7 @@ void MainWindow::createCommandMenus()
             if (Command* wanted = catalog_.command(id)) {
                 wanted->run(*this);
             } else {
-                showMessage(catalog_.explain(ContributionKind::Command, id));
+                showMissing(ContributionKind::Command, id);
             }
         });
     }
@@ -265,6 +266,20 @@ void MainWindow::openScript(Scene& scene, ItemId script, int line)
 
 void MainWindow::print(OutputLine line) { events_.post(static_cast<Editor*>(this), OutputPrinted{std::move(line)}); }
 void MainWindow::showMessage(std::string text) { messages_->add(QString::fromStdString(text)); }
+
+void MainWindow::showMissing(ContributionKind kind, std::string_view id)
+{
+    const Provider provider = plugins_.whoProvides(kind, id);
+    MessageBar::Actions actions;
+    if (provider.canEnable()) {
+        actions.push_back({tr("Enable"), [this, plugin = provider.plugin] {
+                               const Result<PluginChange> change = plugins_.setEnabled(plugin, true);
+                               showMessage(change ? change->message : change.error().text());
+                           }});
+    }
+    messages_->add(QString::fromStdString(provider.sentence), std::move(actions));
+}
+
 void MainWindow::showStatus(std::string text) { status_->setText(QString::fromStdString(text)); }
 
 ItemId MainWindow::activeLayer() const

@@ -9,6 +9,7 @@
 #include "window/format_controller.hpp"
 #include "window/launch.hpp"
 #include "window/message_bar.hpp"
+#include "window/no_plugins.hpp"
 #include "window/play_controller.hpp"
 #include "window/project_controller.hpp"
 #include "window/tool_controller.hpp"
@@ -60,6 +61,8 @@ public:
     void showStatus(std::string text) override;
     ItemId activeLayer() const override;
     void setActiveLayer(ItemId layer) override;
+    PluginsCenter& plugins() override { return plugins_; }
+    void showMissing(ContributionKind kind, std::string_view id) override;
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -83,6 +86,8 @@ private:
     void showPointer(const QPointF& scene);
 
     Catalog& catalog_;
+    NoPlugins noPlugins_;
+    PluginsCenter& plugins_;
     EventsCenter& events_;
     bool safeMode_;
     std::function<std::vector<std::string>()> pluginProblems_;

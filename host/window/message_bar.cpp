@@ -3,6 +3,7 @@
 #include <jet/ui/icons.hpp>
 
 #include <QHBoxLayout>
+#include <QPushButton>
 #include <QToolButton>
 
 namespace jet::host {
@@ -23,7 +24,7 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), layout_(new QVBoxLayou
     hide();
 }
 
-void MessageBar::add(const QString& text)
+void MessageBar::add(const QString& text, Actions actions)
 {
     for (Row& row : rows_) {
         if (row.text != text) continue;
@@ -32,13 +33,13 @@ void MessageBar::add(const QString& text)
     }
     if (rows_.size() == kMostRows) remove(rows_.front().widget);
     Row row{nullptr, nullptr, text};
-    row.widget = createRow(text, row.label);
+    row.widget = createRow(text, row.label, std::move(actions));
     rows_ << row;
     layout_->addWidget(row.widget);
     show();
 }
 
-QWidget* MessageBar::createRow(const QString& text, QLabel*& label)
+QWidget* MessageBar::createRow(const QString& text, QLabel*& label, Actions actions)
 {
     auto* row = new QFrame(this);
     row->setObjectName("messageRow");
@@ -57,6 +58,15 @@ QWidget* MessageBar::createRow(const QString& text, QLabel*& label)
     connect(close, &QToolButton::clicked, this, [this, row] { remove(row); });
     layout->addWidget(sign);
     layout->addWidget(label, 1);
+    for (Action& action : actions) {
+        auto* button = new QPushButton(action.label, row);
+        button->setObjectName("messageAction");
+        connect(button, &QPushButton::clicked, this, [this, row, run = std::move(action.run)] {
+            remove(row);
+            run();
+        });
+        layout->addWidget(button, 0, Qt::AlignTop);
+    }
     layout->addWidget(close, 0, Qt::AlignTop);
     return row;
 }

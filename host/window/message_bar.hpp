@@ -6,6 +6,9 @@
 #include <QLabel>
 #include <QVBoxLayout>
 
+#include <functional>
+#include <vector>
+
 namespace jet::host {
 
 class MessageBar final : public QFrame {
@@ -14,7 +17,14 @@ class MessageBar final : public QFrame {
 public:
     explicit MessageBar(QWidget* parent);
 
-    void add(const QString& text);
+    /// A button of a message; the message goes when it is pressed.
+    struct Action {
+        QString label;
+        std::function<void()> run;
+    };
+    using Actions = std::vector<Action>;
+
+    void add(const QString& text, Actions actions = {});
     void clear();
     /// The newest message; empty when none is shown.
     QString text() const;
@@ -27,7 +37,7 @@ private:
         int count = 1;
     };
 
-    QWidget* createRow(const QString& text, QLabel*& label);
+    QWidget* createRow(const QString& text, QLabel*& label, Actions actions);
     void remove(QWidget* row);
 
     QVBoxLayout* layout_;

@@ -60,7 +60,7 @@ void ToolController::setOptionsBar(QToolBar& bar)
 void ToolController::activate(const std::string& id)
 {
     const auto known = std::find_if(tools_.begin(), tools_.end(), [&](const Contribution& t) { return t.id == id; });
-    if (known == tools_.end()) return editor_.showMessage(editor_.catalog().explain(ContributionKind::Tool, id));
+    if (known == tools_.end()) return editor_.showMissing(ContributionKind::Tool, id);
     if (id == active_) return;
     active_ = id;
     buttons_.actions().at(known - tools_.begin())->setChecked(true);

@@ -15,6 +15,7 @@ namespace jet {
 Painter::~Painter() = default;
 PluginRegistrar::~PluginRegistrar() = default;
 Catalog::~Catalog() = default;
+void Catalog::recall(const PluginUse&) {}
 Importer::~Importer() = default;
 Exporter::~Exporter() = default;
 PoseSource::~PoseSource() = default;
@@ -65,16 +66,17 @@ const PropertyTable& Tool::options() const
 
 std::string_view manifestKey(ContributionKind kind)
 {
-    static constexpr std::string_view keys[] = {"tools",         "effects",   "itemTypes",
-                                                "importers",     "exporters", "physicsEngines",
-                                                "scriptEngines", "panels",    "commands"};
+    static constexpr std::string_view keys[] = {"tools",     "effects",        "itemTypes",     "importers",
+                                                "exporters", "physicsEngines", "scriptEngines", "panels",
+                                                "commands",  "settingsPages"};
     return keys[static_cast<int>(kind)];
 }
 
 std::string_view kindName(ContributionKind kind)
 {
-    static constexpr std::string_view names[] = {"tool",           "effect",        "item type", "importer", "exporter",
-                                                 "physics engine", "script engine", "panel",     "command"};
+    static constexpr std::string_view names[] = {"tool",     "effect",         "item type",     "importer",
+                                                 "exporter", "physics engine", "script engine", "panel",
+                                                 "command",  "settings page"};
     return names[static_cast<int>(kind)];
 }
 

@@ -285,7 +285,7 @@ void InspectorWidget::addEffectButton()
 void InspectorWidget::addEffect(const std::string& id)
 {
     const Effect* effect = editor_.catalog().effect(id);
-    if (!effect) return editor_.showMessage(editor_.catalog().explain(ContributionKind::Effect, id));
+    if (!effect) return editor_.showMissing(ContributionKind::Effect, id);
     editItems("Add effect", "", EditPhase::Done, [&](Transaction& e, const Item& item) {
         if (const std::string why = effect->rejects(item); !why.empty())
             return editor_.showMessage(item.name() + ": " + why);

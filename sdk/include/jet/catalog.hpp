@@ -22,8 +22,21 @@ class PhysicsEngine;
 class ScriptEngine;
 class Tool;
 class ToolHost;
+struct PluginUse;
 
-enum class ContributionKind { Tool, Effect, ItemType, Importer, Exporter, PhysicsEngine, ScriptEngine, Panel, Command };
+enum class ContributionKind {
+    Tool,
+    Effect,
+    ItemType,
+    Importer,
+    Exporter,
+    PhysicsEngine,
+    ScriptEngine,
+    Panel,
+    Command,
+    SettingsPage
+};
+inline constexpr int kContributionKinds = 10;
 
 /// The key of the kind under "contributes" in a manifest ("tools", "effects", ...), and a word for people ("tool").
 JET_API std::string_view manifestKey(ContributionKind kind);
@@ -41,6 +54,7 @@ struct Contribution {
     std::string area;                     ///< panels: "left", "right", "bottom"
     std::vector<std::string> extensions;  ///< formats: lower case, without dot
     int order = 100;                      ///< place among its kind, ascending
+    std::vector<std::string> mimeTypes;   ///< formats: e.g. "image/svg+xml"
 };
 
 /// What plugins offer, by kind and id. Look-ups load the plugin on first use and return null when there is no such
@@ -70,6 +84,9 @@ public:
     virtual std::string explain(ContributionKind kind, std::string_view id) const = 0;
     /// Version of the plugin that provides (kind, id) as "id version"; empty if none.
     virtual std::string provider(ContributionKind kind, std::string_view id) const = 0;
+    /// Told by Project::load what the project's file says of a plugin, so that explain() can name one that is not
+    /// installed. The default forgets it.
+    virtual void recall(const PluginUse& use);
 };
 
 /// The item types every scene knows (SPEC IT1-IT8), by id; null for others. They are part of the SDK, not of a plugin.

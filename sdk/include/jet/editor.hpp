@@ -10,6 +10,8 @@
 
 namespace jet {
 
+class PluginsCenter;
+
 /// Sent by the Editor.
 struct ProjectChanged {  ///< another project was opened or its scenes changed
     static constexpr EventType type{"org.jet.project-changed"};
@@ -50,6 +52,11 @@ public:
     /// The layer new items go to: set by the Layers panel; an id not in the scene means none.
     virtual ItemId activeLayer() const = 0;
     virtual void setActiveLayer(ItemId layer) = 0;
+    /// The installed plugins (jet/plugins.hpp).
+    virtual PluginsCenter& plugins() = 0;
+    /// Tells the user why the catalog has no such contribution, with a button that mends it where one can. For formats
+    /// `id` is an extension.
+    virtual void showMissing(ContributionKind kind, std::string_view id) = 0;
 };
 
 /// A menu command. Stateless; declared in the manifest with menu, label and shortcut.

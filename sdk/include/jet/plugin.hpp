@@ -16,56 +16,67 @@
 
 namespace jet {
 
-/// Receives a plugin's contributions while it is being loaded. Factories are called on first use, on the GUI thread.
+class PropertyTable;
+class Settings;
+
+/// Receives a plugin's contributions while it is being loaded. Factories are called on first use, on the GUI thread;
+/// they pass `args`, copied, on to the constructor.
 class JET_API PluginRegistrar {
 public:
     virtual ~PluginRegistrar();
 
-    template <class T>
-    void tool(std::string_view id)
+    template <class T, class... Args>
+    void tool(std::string_view id, const Args&... args)
     {
-        addTool(id, [](ToolHost& host) -> std::unique_ptr<Tool> { return std::make_unique<T>(host); });
+        addTool(id, [args...](ToolHost& host) -> std::unique_ptr<Tool> { return std::make_unique<T>(host, args...); });
     }
-    template <class T>
-    void panel(std::string_view id)
+    template <class T, class... Args>
+    void panel(std::string_view id, const Args&... args)
     {
-        addPanel(id, [](Editor& editor) -> std::unique_ptr<Panel> { return std::make_unique<T>(editor); });
+        addPanel(id,
+                 [args...](Editor& editor) -> std::unique_ptr<Panel> { return std::make_unique<T>(editor, args...); });
     }
-    template <class T>
-    void effect(std::string_view id)
+    template <class T, class... Args>
+    void effect(std::string_view id, const Args&... args)
     {
-        addEffect(id, [] { return std::shared_ptr<Effect>(std::make_shared<T>()); });
+        addEffect(id, [args...] { return std::shared_ptr<Effect>(std::make_shared<T>(args...)); });
     }
-    template <class T>
-    void itemType(std::string_view id)
+    template <class T, class... Args>
+    void itemType(std::string_view id, const Args&... args)
     {
-        addItemType(id, [] { return std::shared_ptr<ItemType>(std::make_shared<T>()); });
+        addItemType(id, [args...] { return std::shared_ptr<ItemType>(std::make_shared<T>(args...)); });
     }
     /// `id` names the format; its extensions are in the manifest.
-    template <class T>
-    void importer(std::string_view id)
+    template <class T, class... Args>
+    void importer(std::string_view id, const Args&... args)
     {
-        addImporter(id, [] { return std::shared_ptr<Importer>(std::make_shared<T>()); });
+        addImporter(id, [args...] { return std::shared_ptr<Importer>(std::make_shared<T>(args...)); });
     }
-    template <class T>
-    void exporter(std::string_view id)
+    template <class T, class... Args>
+    void exporter(std::string_view id, const Args&... args)
     {
-        addExporter(id, [] { return std::shared_ptr<Exporter>(std::make_shared<T>()); });
+        addExporter(id, [args...] { return std::shared_ptr<Exporter>(std::make_shared<T>(args...)); });
     }
-    template <class T>
-    void physicsEngine(std::string_view id)
+    template <class T, class... Args>
+    void physicsEngine(std::string_view id, const Args&... args)
     {
-        addPhysicsEngine(id, [] { return std::shared_ptr<PhysicsEngine>(std::make_shared<T>()); });
+        addPhysicsEngine(id, [args...] { return std::shared_ptr<PhysicsEngine>(std::make_shared<T>(args...)); });
     }
-    template <class T>
-    void scriptEngine(std::string_view id)
+    template <class T, class... Args>
+    void scriptEngine(std::string_view id, const Args&... args)
     {
-        addScriptEngine(id, [] { return std::shared_ptr<ScriptEngine>(std::make_shared<T>()); });
+        addScriptEngine(id, [args...] { return std::shared_ptr<ScriptEngine>(std::make_shared<T>(args...)); });
     }
-    template <class T>
-    void command(std::string_view id)
+    template <class T, class... Args>
+    void command(std::string_view id, const Args&... args)
     {
-        addCommand(id, [] { return std::shared_ptr<Command>(std::make_shared<T>()); });
+        addCommand(id, [args...] { return std::shared_ptr<Command>(std::make_shared<T>(args...)); });
+    }
+
+    /// Declared under "settingsPages". The values are live: keep the pointer and read when needed.
+    std::shared_ptr<Settings> settingsPage(std::string_view id, const PropertyTable& table)
+    {
+        return addSettingsPage(id, table);
     }
 
     using ToolFactory = std::function<std::unique_ptr<Tool>(ToolHost&)>;
@@ -82,6 +93,8 @@ public:
     virtual void addPhysicsEngine(std::string_view id, Factory<PhysicsEngine> factory) = 0;
     virtual void addScriptEngine(std::string_view id, Factory<ScriptEngine> factory) = 0;
     virtual void addCommand(std::string_view id, Factory<Command> factory) = 0;
+    /// The default keeps the values in memory.
+    virtual std::shared_ptr<Settings> addSettingsPage(std::string_view id, const PropertyTable& table);
 };
 
 }  // namespace jet

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace jet {
@@ -23,6 +24,7 @@ struct Filter {
 struct PluginUse {
     std::string id, version;
     int count = 0;  ///< items, effects and engines that come from it
+    std::vector<std::pair<ContributionKind, std::string>> provides = {};  ///< which ones, by kind and id
 };
 
 class JET_API Project {

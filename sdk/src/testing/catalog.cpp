@@ -4,6 +4,7 @@
 #include <jet/format.hpp>
 #include <jet/item_type.hpp>
 #include <jet/script.hpp>
+#include <jet/settings.hpp>
 #include <jet/tool.hpp>
 #include <jet/ui/panel.hpp>
 
@@ -22,10 +23,11 @@ namespace jet::test {
 
 namespace {
 
-constexpr ContributionKind kKinds[] = {
-    ContributionKind::Tool,         ContributionKind::Effect,   ContributionKind::ItemType,
-    ContributionKind::Importer,     ContributionKind::Exporter, ContributionKind::PhysicsEngine,
-    ContributionKind::ScriptEngine, ContributionKind::Panel,    ContributionKind::Command};
+constexpr ContributionKind kKinds[] = {ContributionKind::Tool,         ContributionKind::Effect,
+                                       ContributionKind::ItemType,     ContributionKind::Importer,
+                                       ContributionKind::Exporter,     ContributionKind::PhysicsEngine,
+                                       ContributionKind::ScriptEngine, ContributionKind::Panel,
+                                       ContributionKind::Command,      ContributionKind::SettingsPage};
 
 [[noreturn]] void fail(std::string message) { throw Failure(Error(std::move(message))); }
 
@@ -43,7 +45,8 @@ std::filesystem::path shippedPlugins()
         [](dl_phdr_info* info, std::size_t, void* result) {
             const std::filesystem::path library(info->dlpi_name);
             if (!library.filename().string().starts_with("libjet-sdk.so")) return 0;
-            *static_cast<std::filesystem::path*>(result) = (library.parent_path() / "jet" / "plugins").lexically_normal();
+            *static_cast<std::filesystem::path*>(result) =
+                (library.parent_path() / "jet" / "plugins").lexically_normal();
             return 1;
         },
         &found);
@@ -125,6 +128,12 @@ public:
     void addCommand(std::string_view id, Factory<Command> f) override
     {
         add(ContributionKind::Command, id, std::move(f));
+    }
+    std::shared_ptr<Settings> addSettingsPage(std::string_view id, const PropertyTable& table) override
+    {
+        auto page = settingsInMemory(table);
+        add(ContributionKind::SettingsPage, id, page);
+        return page;
     }
 
 private:
