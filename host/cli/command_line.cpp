@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "package_commands.hpp"
+#include "plugin_new_command.hpp"
 
 #include <jet/version.hpp>
 
@@ -95,6 +96,7 @@ void addPlugins(CLI::App& app, Parsed& parsed)
     one("enable", "Switch a plugin on", [](Session& s, const std::string& id) { return enablePlugin(s, id, true); });
     one("disable", "Switch a plugin off", [](Session& s, const std::string& id) { return enablePlugin(s, id, false); });
     addPackageCommands(*plugins, parsed.run);
+    addNewPluginCommand(*plugins, parsed.run);
 }
 
 void addProject(CLI::App& app, Parsed& parsed)
