@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 jet::BodyHandle MyPluginWorld::add(const jet::BodyCommon& common, const std::vector<std::vector<jet::Vec2>>& rings,
                                    double mass)
