@@ -10,7 +10,7 @@ namespace {
 
 // What a body may stray from its predicted motion before contacts are sought again: larger finds more useless contacts,
 // smaller seeks more often.
-constexpr double kStrayLengths = 0.04, kStrayOfMotion = 0.1;
+constexpr double kStrayLengths = 0.02, kStrayOfMotion = 0.1;
 // Hits faster than this many lengths of the smaller body a step are looked ahead for, through chains of so many bodies.
 constexpr double kHitLengths = 0.25;
 constexpr int kHitRounds = 3;
@@ -40,6 +40,13 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
 {
     const auto start = std::chrono::steady_clock::now();
     updatePoints(state);
+    // Nothing can meet where there is only one body.
+    lonely_ = std::count_if(state.bodies.begin(), state.bodies.end(),
+                            [](const BodyRecord& body) { return body.points.count > 0; }) < 2;
+    if (lonely_) {
+        contacts.clear();
+        return;
+    }
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
     for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);
@@ -194,15 +201,23 @@ void ContactFinder::predictBody(const State& state, const BodyRecord& body, cons
 
 bool ContactFinder::strayed(const State& state, double elapsed) const
 {
+    if (lonely_) return false;
     const Nodes& nodes = state.nodes;
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         if (body.fixed || body.points.count == 0) continue;
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-            double distance = (nodes.position[n] - position_[n] - elapsed * velocity_[n]).norm();
-            if (body.rigid) distance += body.radius * std::abs(nodes.angle[n] - angle_[n] - elapsed * omega_[n]);
-            if (distance > budgets_[handle]) return true;
+        const auto off = [&](Index n) {
+            return (nodes.position[n] - position_[n] - elapsed * velocity_[n]).squaredNorm();
+        };
+        if (body.rigid) {
+            const Index n = body.nodes.first;
+            const double turned = std::abs(nodes.angle[n] - angle_[n] - elapsed * omega_[n]);
+            if (std::sqrt(off(n)) + body.radius * turned > budgets_[handle]) return true;
+            continue;
         }
+        double most = 0;
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) most = std::max(most, off(n));
+        if (most > budgets_[handle] * budgets_[handle]) return true;
     }
     return false;
 }

@@ -23,6 +23,7 @@ private:
                       std::vector<ContactPoint>& contacts);
     static void carryOver(const State&, std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts);
 
+    bool lonely_ = false;  // is there nothing that could meet?
     std::vector<Motion> motions_;
     std::vector<double> budgets_;            // [bodies] units a node may stray
     std::vector<Vec2> position_, velocity_;  // [nodes] at the last find()

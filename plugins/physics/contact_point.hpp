@@ -24,12 +24,14 @@ struct ContactPoint {
     bool engaged = false;  // the point has come to the wall from outside
     bool firstInset = false, secondInset = false;  // near that end the wall leaves the point to its neighbour
 
+    bool plain = false;  // only particles: nothing here turns
+    Index nodeA = 0, nodeB0 = 0, nodeB1 = 0;
+
     // Refreshed each substep.
     bool active = false;
-    Vec2 normal;            // unit, out of B
-    double separation = 0;  // units along the normal; negative when overlapping
-    double along = 0;       // 0..1 on the wall
-    Index nodeA = 0, nodeB0 = 0, nodeB1 = 0;
+    Vec2 normal;                        // unit, out of B
+    double separation = 0;              // units along the normal; negative when overlapping
+    double along = 0;                   // 0..1 on the wall
     double weightB0 = 1, weightB1 = 0;  // the wall's point between its ends; a rigid wall is one node
     Vec2 armA, armB;                    // from the nodes, units
     double normalMass = 0, tangentMass = 0;
@@ -42,6 +44,11 @@ struct ContactPoint {
     double stepImpulse = 0;                        // normal, summed over the step
 
     std::uint64_t key() const { return (static_cast<std::uint64_t>(point) << 32) | wall; }
+};
+
+/// What is read of each contact in each substep; the rest only of those that are active.
+struct ContactHead {
+    std::uint8_t idle = 0;  // substeps in which it cannot become active
 };
 
 }  // namespace jet::physics

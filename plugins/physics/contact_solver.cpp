@@ -12,8 +12,20 @@ constexpr double kHitSlops = 40;  // contacts closing faster than this many slop
 
 }  // namespace
 
-ContactSolver::ContactSolver(State& state, double h, double gravity)
-    : state_(state), h_(h), restSpeed_(4 * gravity * h),
+void ContactSet::begin(const State& state)
+{
+    heads.assign(points.size(), ContactHead());
+    for (ContactPoint& c : points) {
+        c.nodeA = state.points.node[c.point];
+        c.nodeB0 = state.points.node[state.walls.first[c.wall]];
+        c.nodeB1 = state.points.node[state.walls.second[c.wall]];
+        c.plain = !state.bodies[c.bodyA].rigid && !state.bodies[c.bodyB].rigid;
+        c.active = false;
+    }
+}
+
+ContactSolver::ContactSolver(State& state, ContactSet& contacts, double h, double gravity)
+    : state_(state), contacts_(contacts), h_(h), restSpeed_(4 * gravity * h),
       moving_(softness(std::min(kHertz, kHertzPerSubstepRate / h), kDampingRatio, h)),
       fixed_(softness(2 * std::min(kHertz, kHertzPerSubstepRate / h), kDampingRatio, h))
 {
@@ -30,12 +42,21 @@ ContactSolver::Softness ContactSolver::softness(double hertz, double dampingRati
 Vec2 ContactSolver::relativeVelocity(const ContactPoint& c) const
 {
     const Nodes& nodes = state_.nodes;
+    if (c.plain)
+        return nodes.velocity[c.nodeA] - c.weightB0 * nodes.velocity[c.nodeB0] - c.weightB1 * nodes.velocity[c.nodeB1];
     return nodes.velocityAt(c.nodeA, c.armA) - c.weightB0 * nodes.velocityAt(c.nodeB0, c.armB) -
            c.weightB1 * nodes.velocityAt(c.nodeB1, c.armB);
 }
 
 void ContactSolver::applyImpulse(const ContactPoint& c, const Vec2& impulse)
 {
+    if (c.plain) {
+        Nodes& nodes = state_.nodes;
+        nodes.velocity[c.nodeA] += nodes.invMass[c.nodeA] * impulse;
+        nodes.velocity[c.nodeB0] -= (nodes.invMass[c.nodeB0] * c.weightB0) * impulse;
+        nodes.velocity[c.nodeB1] -= (nodes.invMass[c.nodeB1] * c.weightB1) * impulse;
+        return;
+    }
     state_.nodes.applyImpulse(c.nodeA, c.armA, impulse);
     state_.nodes.applyImpulse(c.nodeB0, c.armB, -c.weightB0 * impulse);
     if (c.weightB1 != 0) state_.nodes.applyImpulse(c.nodeB1, c.armB, -c.weightB1 * impulse);
@@ -54,24 +75,22 @@ double ContactSolver::effectiveMass(const ContactPoint& c, const Vec2& direction
 
 double ContactSolver::pushSpeed(const ContactPoint& c) const { return kPushLengthsPerSecond * c.slop / kSlopPerLength; }
 
-/// Geometry as the nodes stand now.
-void ContactSolver::refresh(ContactPoint& c)
+/// Geometry as the nodes stand now. Returns for how many substeps it need not be looked at again.
+std::uint8_t ContactSolver::refresh(ContactPoint& c)
 {
     const Nodes& nodes = state_.nodes;
     c.active = false;
-    const Vec2 at = state_.pointNow(c.point);
-    const Vec2 first = state_.pointNow(state_.walls.first[c.wall]);
-    const Vec2 edge = state_.pointNow(state_.walls.second[c.wall]) - first;
+    const Vec2 at = c.plain ? nodes.position[c.nodeA] : state_.pointNow(c.point);
+    const Vec2 first = c.plain ? nodes.position[c.nodeB0] : state_.pointNow(state_.walls.first[c.wall]);
+    const Vec2 second = c.plain ? nodes.position[c.nodeB1] : state_.pointNow(state_.walls.second[c.wall]);
+    const Vec2 edge = second - first;
     const double squared = edge.squaredNorm();
-    if (!(squared > 1e-24)) return;
+    if (!(squared > 1e-24)) return 0;
     const double length = std::sqrt(squared);
     c.normal = perpendicular(edge) * (state_.walls.outward[c.wall] / length);
     c.separation = (at - first).dot(c.normal);
     c.along = (at - first).dot(edge) / squared;
 
-    c.nodeA = state_.points.node[c.point];
-    c.nodeB0 = state_.points.node[state_.walls.first[c.wall]];
-    c.nodeB1 = state_.points.node[state_.walls.second[c.wall]];
     c.armA = at - nodes.position[c.nodeA];
     c.armB = Vec2(0, 0);
     const double along = std::clamp(c.along, 0.0, 1.0);
@@ -84,6 +103,16 @@ void ContactSolver::refresh(ContactPoint& c)
     const Vec2 velocity = relativeVelocity(c);
     c.approachSpeed = velocity.dot(c.normal);
     c.active = decideActive(c, length, velocity.dot(edge) / squared);
+    return c.active ? 0 : idleFor(c);
+}
+
+/// Contacts that are several times farther than they come in a substep may wait. The room they need before they can
+/// act, and four times their speed, are left.
+std::uint8_t ContactSolver::idleFor(const ContactPoint& c) const
+{
+    const double room = c.separation - 8 * c.slop - c.surprise;
+    const double pace = 4 * std::abs(c.approachSpeed) * h_ + c.slop;
+    return room > pace ? static_cast<std::uint8_t>(std::min(room / pace, 8.0)) : 0;
 }
 
 /// Is the point at the wall, or about to come to it in this substep? `slide`: change of `along` per second.
@@ -108,25 +137,33 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
     return true;
 }
 
-void ContactSolver::prepare(std::span<ContactPoint> contacts)
+void ContactSolver::prepare()
 {
-    for (ContactPoint& c : contacts) {
+    contacts_.active.clear();
+    const Nodes& nodes = state_.nodes;
+    for (Index i = 0; i < contacts_.points.size(); ++i) {
+        ContactHead& head = contacts_.heads[i];
+        if (head.idle > 0) {
+            --head.idle;
+            continue;
+        }
+        ContactPoint& c = contacts_.points[i];
         if (!c.resolve) continue;
-        refresh(c);
+        head.idle = refresh(c);
         if (!c.active) {
             c.normalImpulse = c.tangentImpulse = 0;
             continue;
         }
+        contacts_.active.push_back(i);
         c.keptImpulse = c.normalImpulse;
         hit_ |= -c.approachSpeed * h_ > kHitSlops * c.slop;
         c.normalMass = effectiveMass(c, c.normal);
-        c.tangentMass = effectiveMass(c, perpendicular(c.normal));
-        const Nodes& nodes = state_.nodes;
+        c.tangentMass = c.plain ? c.normalMass : effectiveMass(c, perpendicular(c.normal));
         c.againstFixed = nodes.invMass[c.nodeA] == 0 || (nodes.invMass[c.nodeB0] == 0 && nodes.invMass[c.nodeB1] == 0);
     }
-    for (ContactPoint& c : contacts)
-        if (c.active && c.resolve)
-            applyImpulse(c, c.normalImpulse * c.normal + c.tangentImpulse * perpendicular(c.normal));
+    each([&](ContactPoint& c) {
+        applyImpulse(c, c.normalImpulse * c.normal + c.tangentImpulse * perpendicular(c.normal));
+    });
 }
 
 void ContactSolver::solveOne(ContactPoint& c, Pass pass)
@@ -155,53 +192,50 @@ void ContactSolver::solveOne(ContactPoint& c, Pass pass)
     c.tangentImpulse = tangentImpulse;
 }
 
-void ContactSolver::solve(std::span<ContactPoint> contacts)
+void ContactSolver::solve()
 {
     // One pass a substep suffices for what rests. A hit must go through all it pushes together before anything moves.
-    for (int pass = 0; pass < (hit_ ? kHitPasses : 1); ++pass)
-        for (ContactPoint& c : contacts)
-            if (c.active && c.resolve) solveOne(c, Pass::Push);
+    for (int pass = 0; pass < (hit_ ? kHitPasses : 1); ++pass) each([&](ContactPoint& c) { solveOne(c, Pass::Push); });
 }
 
-void ContactSolver::relax(std::span<ContactPoint> contacts)
+void ContactSolver::relax()
 {
     // The nodes have moved by h times their velocities, and the separations with them.
-    for (ContactPoint& c : contacts)
-        if (c.active && c.resolve) c.separation += h_ * relativeVelocity(c).dot(c.normal);
-    for (int pass = 0; pass < (hit_ ? kHitPasses : 1); ++pass)
-        for (ContactPoint& c : contacts)
-            if (c.active && c.resolve) solveOne(c, Pass::Relax);
-    for (ContactPoint& c : contacts)
-        if (c.active && c.resolve) c.stepImpulse += c.normalImpulse;
+    each([&](ContactPoint& c) { c.separation += h_ * relativeVelocity(c).dot(c.normal); });
+    for (int pass = 0; pass < (hit_ ? kHitPasses : 1); ++pass) each([&](ContactPoint& c) { solveOne(c, Pass::Relax); });
+    each([&](ContactPoint& c) { c.stepImpulse += c.normalImpulse; });
 }
 
-void ContactSolver::restitute(std::span<ContactPoint> contacts)
+void ContactSolver::restitute()
 {
     const auto bounces = [&](const ContactPoint& c) {
-        return c.active && c.resolve && c.restitution > 0 && c.approachSpeed < -restSpeed_ && c.normalImpulse > 0;
+        return c.restitution > 0 && c.approachSpeed < -restSpeed_ && c.normalImpulse > 0;
     };
+    bool any = false;
+    each([&](const ContactPoint& c) { any |= bounces(c); });
+    if (!any) return;
     for (int pass = 0; pass < kRestitutionPasses; ++pass) {
-        for (ContactPoint& c : contacts) {
-            if (!bounces(c)) continue;
+        each([&](ContactPoint& c) {
+            if (!bounces(c)) return;
             const double missing = relativeVelocity(c).dot(c.normal) + c.restitution * c.approachSpeed;
             const double impulse = std::max(c.normalImpulse - c.normalMass * missing, 0.0);
             applyImpulse(c, (impulse - c.normalImpulse) * c.normal);
             c.stepImpulse += impulse - c.normalImpulse;
             c.normalImpulse = impulse;
-        }
+        });
     }
 }
 
-void ContactSolver::finish(std::span<ContactPoint> contacts)
+void ContactSolver::finish()
 {
-    restitute(contacts);
+    restitute();
     if (!hit_) return;
     // The impulse of a hit is over with the hit: warm-starting from it would throw the bodies back.
-    for (ContactPoint& c : contacts) {
+    each([&](ContactPoint& c) {
         c.normalImpulse = std::min(c.normalImpulse, c.keptImpulse);
         const double most = c.friction * c.normalImpulse;
         c.tangentImpulse = std::clamp(c.tangentImpulse, -most, most);
-    }
+    });
 }
 
 }  // namespace jet::physics

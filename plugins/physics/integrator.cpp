@@ -4,8 +4,7 @@ namespace jet::physics {
 
 namespace {
 
-// Far above any sensible scene; keeps absurd forces from reaching infinity, where nothing would come back from.
-constexpr double kMostSpeed = 1e6;        // units / s
+using soft::kMostSpeed;
 constexpr double kMostTurningRate = 1e4;  // rad / s
 
 void limit(Vec2& velocity, double& omega)
@@ -41,33 +40,47 @@ void dampTurning(Nodes& nodes, const BodyRecord& body, double kept)
 
 }  // namespace
 
-void integrateVelocities(State& state, const WorldSettings& settings, double h)
+void integrateVelocities(State& state, const WorldSettings& settings, const soft::Kernels& kernels, double h)
 {
     Nodes& nodes = state.nodes;
     const double linear = settings.applyDamping ? decay(settings.linearDamping * h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * h) : 1;
     for (const BodyRecord& body : state.bodies) {
-        if (body.fixed) continue;
         const Vec2 gravity = settings.applyGravity ? Vec2(body.gravityScale * settings.gravity) : Vec2(0, 0);
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-            if (nodes.invMass[n] == 0) continue;
-            nodes.velocity[n] = linear * (nodes.velocity[n] + h * (gravity + nodes.invMass[n] * nodes.force[n]));
-            nodes.omega[n] = angular * (nodes.omega[n] + h * nodes.invInertia[n] * nodes.torque[n]);
+        const Index first = body.nodes.first;
+        if (body.nodes.count == 0) continue;
+        if (!body.rigid) {
+            kernels.accelerate(nodes.velocity[first].data(), nodes.force[first].data(), &nodes.invMass[first],
+                               body.nodes.count, {h, gravity.x(), gravity.y(), linear});
+            if (angular != 1 && !body.fixed) dampTurning(nodes, body, angular);
+            continue;
         }
-        if (!body.rigid && angular != 1 && body.nodes.count > 0) dampTurning(nodes, body, angular);
+        if (nodes.invMass[first] > 0) {
+            nodes.velocity[first] =
+                linear * (nodes.velocity[first] + h * (gravity + nodes.invMass[first] * nodes.force[first]));
+            nodes.omega[first] = angular * (nodes.omega[first] + h * nodes.invInertia[first] * nodes.torque[first]);
+        }
+        nodes.force[first] = Vec2(0, 0);
+        nodes.torque[first] = 0;
     }
 }
 
-void integratePositions(State& state, double h)
+void integratePositions(State& state, const soft::Kernels& kernels, double h)
 {
     Nodes& nodes = state.nodes;
-    for (Index n = 0; n < nodes.size(); ++n) {
-        if (nodes.invMass[n] == 0) continue;
-        limit(nodes.velocity[n], nodes.omega[n]);
-        nodes.position[n] += h * nodes.velocity[n];
-        if (nodes.invInertia[n] == 0) continue;
-        nodes.angle[n] += h * nodes.omega[n];
-        nodes.rotation[n] = direction(nodes.angle[n]);
+    for (const BodyRecord& body : state.bodies) {
+        const Index first = body.nodes.first;
+        if (body.nodes.count == 0 || body.fixed) continue;
+        if (!body.rigid) {
+            kernels.advance(nodes.position[first].data(), nodes.velocity[first].data(), body.nodes.count, h);
+            continue;
+        }
+        if (nodes.invMass[first] == 0) continue;
+        limit(nodes.velocity[first], nodes.omega[first]);
+        nodes.position[first] += h * nodes.velocity[first];
+        if (nodes.invInertia[first] == 0) continue;
+        nodes.angle[first] += h * nodes.omega[first];
+        nodes.rotation[first] = direction(nodes.angle[first]);
     }
 }
 

@@ -19,6 +19,9 @@ constexpr double kLeastFit = 0.2;
 // shape that was drawn.
 constexpr double kMostStrain = 0.1;
 
+// Of the tolerance: bodies that will stay within are not looked at in the substeps.
+constexpr double kRelaxed = 0.8;
+
 class Groups {
 public:
     explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
@@ -98,10 +101,28 @@ void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle han
     }
 }
 
+void ShapeMemory::look(const State& state, double dt)
+{
+    const Nodes& nodes = state.nodes;
+    for (Lattice& lattice : lattices_) {
+        const Motion motion = match(nodes, lattice);
+        double off = 0, speed = 0;
+        for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
+            const Index n = lattice.nodes[i];
+            const Vec2 arm = nodes.position[n] - motion.centre;
+            off = std::max(off, (rotated(lattice.rotation, lattice.rest[i]) - arm).squaredNorm());
+            const Vec2 own = nodes.velocity[n] - motion.velocity - motion.omega * perpendicular(arm);
+            speed = std::max(speed, own.squaredNorm());
+        }
+        lattice.relaxed = std::sqrt(off) + std::sqrt(speed) * dt < kRelaxed * lattice.tolerance;
+    }
+}
+
 void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
 {
     Nodes& nodes = state.nodes;
     for (Lattice& lattice : lattices_) {
+        if (lattice.relaxed) continue;
         const Motion motion = match(nodes, lattice);
         if (!pull(nodes, lattice, motion, h)) continue;
         if (springs.anyTorn(lattice.body)) continue;

@@ -24,6 +24,9 @@ public:
     /// particles), what was not built at rest, and what is nailed down has none.
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
+    /// Once a step, before its substeps: bodies that cannot come near their tolerance within dt are left out of it,
+    /// unless something hits them: then the next step sees it.
+    void look(const State&, double dt);
     /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
     void apply(State&, const SoftSprings&, double h);
 
@@ -43,6 +46,7 @@ private:
         double inertia = 0;          // sum m |q|²
         double tolerance = 0;        // scene units
         double rate = 0;             // omega², 1 / s²
+        bool relaxed = false;        // far inside the tolerance in this step
         Vec2 rotation = Vec2(1, 0);  // (cos, sin) of R; stays where it was while no angle fits better than others
     };
     /// The rigid motion nearest to that of the particles.

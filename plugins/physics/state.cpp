@@ -19,7 +19,15 @@ void Nodes::add(Index ofBody, const Vec2& at, double nodeMass, double inverseMas
 
 void updatePoints(State& state)
 {
-    for (Index p = 0; p < state.points.size(); ++p) state.points.position[p] = state.pointNow(p);
+    Points& points = state.points;
+    for (const BodyRecord& body : state.bodies) {
+        if (body.rigid) {
+            for (Index p = body.points.first; p < body.points.end(); ++p) points.position[p] = state.pointNow(p);
+        } else {
+            for (Index p = body.points.first; p < body.points.end(); ++p)
+                points.position[p] = state.nodes.position[points.node[p]];
+        }
+    }
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "actuators.hpp"
 #include "contact_finder.hpp"
+#include "contact_solver.hpp"
 #include "shape_memory.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
@@ -51,7 +52,7 @@ private:
     void setRigidMass(BodyRecord&, const RigidBodyDef&);
 
     void prepareStiffness();
-    void substep(double h, int index);
+    void substep(double h, int index, int count);
     void report();
     void reportContact(const ContactPoint&);
 
@@ -64,9 +65,10 @@ private:
     ShapeMemory shapes_;
     Actuators actuators_;
     ContactFinder finder_;
-    std::vector<ContactPoint> contacts_;
+    ContactSet contacts_;
     std::vector<ContactPoint> ended_;  // pushed in this step, but are over
     std::vector<Vec2> stepForces_;     // [nodes] of applyForce, for the next step only
+    bool pushed_ = false;              // is any of them not null?
     std::vector<Contact> reports_;
     std::vector<std::uint64_t> touching_;  // sorted pairs of handles, the smaller one high
     StepStats stats_;

@@ -53,6 +53,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
     requireBelow("body", handle, bodyCount());
     requireFinite("a force", force);
     const BodyRecord& body = state_.bodies[handle];
+    pushed_ = true;
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         stepForces_[n] += state_.nodes.mass[n] / body.mass * force;
 }
@@ -134,7 +135,7 @@ void World::archive(Self& self, Archive& with)
     self.actuators_.archive(with);
     with(self.stepForces_);
     with(self.settings_.gravity);
-    with.list(self.contacts_, [&](ContactPoint& c) {
+    with.list(self.contacts_.points, [&](ContactPoint& c) {
         with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.active), with(c.engaged), with(c.along);
         with(c.normalImpulse), with(c.tangentImpulse), with(c.stepImpulse);
     });
@@ -162,9 +163,10 @@ void World::restore(std::span<const std::byte> bytes)
         RestoreArchive archiveIn(from);
         archive(*this, archiveIn);
         if (!archiveIn.finished()) RestoreArchive::fail();
-        for (const ContactPoint& c : contacts_)
+        for (const ContactPoint& c : contacts_.points)
             if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
         springs_.restored();
+        pushed_ = true;
     };
     try {
         read(bytes);

@@ -41,7 +41,7 @@ void World::step(double dt)
         actuators_.prepare(bounds_, h);
         // Warm-start impulses are per substep: scaled, they stand for the same force.
         const double ratio = preparedFor_ > 0 ? h / preparedFor_ : 1;
-        for (ContactPoint& c : contacts_) c.normalImpulse *= ratio, c.tangentImpulse *= ratio;
+        for (ContactPoint& c : contacts_.points) c.normalImpulse *= ratio, c.tangentImpulse *= ratio;
         preparedFor_ = h;
     }
 
@@ -49,20 +49,23 @@ void World::step(double dt)
     for (int i = 0; i < count; ++i) {
         const double now = i * h;
         if (!settings_.findCollisions) {
-            contacts_.clear();
+            contacts_.points.clear();
+            contacts_.begin(state_);
         } else if (i == 0 || finder_.strayed(state_, now - soughtAt)) {
             if (i == 0) {
-                finder_.find(state_, settings_, dt, contacts_, stats_);
-                for (ContactPoint& c : contacts_) c.stepImpulse = 0;
+                finder_.find(state_, settings_, dt, contacts_.points, stats_);
+                for (ContactPoint& c : contacts_.points) c.stepImpulse = 0;
             } else {
-                finder_.find(state_, settings_, dt - now, contacts_, stats_);
-                finder_.collectEnded(contacts_, ended_);
+                finder_.find(state_, settings_, dt - now, contacts_.points, stats_);
+                finder_.collectEnded(contacts_.points, ended_);
             }
+            contacts_.begin(state_);
             soughtAt = now;
         }
-        substep(h, i);
+        substep(h, i, count);
     }
-    std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
+    if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
+    pushed_ = false;
     updatePoints(state_);
     updateReadings(state_);
     report();
@@ -81,34 +84,35 @@ void World::prepareStiffness()
     preparedFor_ = 0;
 }
 
-void World::substep(double h, int index)
+void World::substep(double h, int index, int count)
 {
     {
         const Stopwatch watch(stats_.springsMs);
-        state_.nodes.force = stepForces_;
-        std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
+        if (pushed_)
+            for (Index n = 0; n < state_.nodes.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);
         springs_.addForces(state_, h);
-        integrateVelocities(state_, settings_, h);
+        integrateVelocities(state_, settings_, springs_.kernels(), h);
         const bool backwards = index % 2 == 1;
         springs_.applyAngular(state_, h, backwards);
+        if (index == 0) shapes_.look(state_, count * h);
         shapes_.apply(state_, springs_, h);
         actuators_.applySprings(state_, h, backwards);
     }
     const Stopwatch watch(stats_.solverMs);
-    ContactSolver solver(state_, h, settings_.applyGravity ? settings_.gravity.norm() : 0);
-    solver.prepare(contacts_);
-    solver.solve(contacts_);
-    integratePositions(state_, h);
-    solver.relax(contacts_);
-    solver.finish(contacts_);
+    ContactSolver solver(state_, contacts_, h, settings_.applyGravity ? settings_.gravity.norm() : 0);
+    solver.prepare();
+    solver.solve();
+    integratePositions(state_, springs_.kernels(), h);
+    solver.relax();
+    solver.finish();
 }
 
 void World::report()
 {
     reports_.clear();
     touching_.clear();
-    for (const ContactPoint& c : contacts_) reportContact(c);
+    for (const ContactPoint& c : contacts_.points) reportContact(c);
     for (const ContactPoint& c : ended_) reportContact(c);
     std::sort(touching_.begin(), touching_.end());
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());

@@ -19,6 +19,9 @@ inline constexpr std::uint32_t kLanes = 8;
 /// Lane of the k-th spring of a block: what transposing leaves in order.
 inline constexpr std::uint32_t kLaneOf[kLanes] = {0, 4, 1, 5, 2, 6, 3, 7};
 
+/// Far above any sensible scene; keeps absurd forces from reaching infinity, where nothing would come back from.
+inline constexpr double kMostSpeed = 1e6;  // units / s
+
 /// Springs from nodes a .. a + 7 to b .. b + 7.
 struct Run {
     std::uint32_t a = 0, b = 0;
@@ -53,11 +56,11 @@ struct Kernels {
     void (*relate)(const double* position, const double* velocity, std::size_t nodes, const Frame&, float* relative);
     /// Adds the springs' forces to `force`; returns how many blocks it put into `torn`.
     std::size_t (*pull)(const SpringBlocks&, const float* relative, double* force);
-    /// v = kept (v + h (g + f / m)); nodes of inverse mass 0 stay as they are. Returns the sum of v².
-    double (*accelerate)(double* velocity, const double* force, const double* inverseMass, std::size_t nodes,
-                         const VelocityStep&);
-    /// x += h v.
-    void (*advance)(double* position, const double* velocity, std::size_t nodes, double h);
+    /// v = kept (v + h (g + f / m)), f = 0; nodes of inverse mass 0 stay as they are.
+    void (*accelerate)(double* velocity, double* force, const double* inverseMass, std::size_t nodes,
+                       const VelocityStep&);
+    /// x += h v, after slowing what is faster than kMostSpeed; what is not a number is stopped.
+    void (*advance)(double* position, double* velocity, std::size_t nodes, double h);
 };
 
 const Kernels& kernelsSse2();

@@ -69,29 +69,41 @@ struct KernelSet {
         }
     }
 
-    static double accelerate(double* velocity, const double* force, const double* inverseMass, std::size_t nodes,
-                             const VelocityStep& step)
+    static void accelerate(double* velocity, double* force, const double* inverseMass, std::size_t nodes,
+                           const VelocityStep& step)
     {
         const __m128d gravity = _mm_setr_pd(step.gravityX, step.gravityY);
         const __m128d h = _mm_set1_pd(step.h), kept = _mm_set1_pd(step.kept), zero = _mm_setzero_pd();
-        __m128d sum = zero;
         for (std::size_t n = 0; n < nodes; ++n) {
             const __m128d inverse = _mm_set1_pd(inverseMass[n]);
             const __m128d pull = _mm_and_pd(gravity, _mm_cmpgt_pd(inverse, zero));
             const __m128d change = _mm_mul_pd(h, _mm_add_pd(pull, _mm_mul_pd(inverse, _mm_loadu_pd(force + 2 * n))));
             const __m128d v = _mm_mul_pd(kept, _mm_add_pd(_mm_loadu_pd(velocity + 2 * n), change));
             _mm_storeu_pd(velocity + 2 * n, v);
-            sum = _mm_add_pd(sum, _mm_mul_pd(v, v));
+            _mm_storeu_pd(force + 2 * n, zero);
         }
-        return _mm_cvtsd_f64(sum) + _mm_cvtsd_f64(_mm_unpackhi_pd(sum, sum));
     }
 
-    static void advance(double* position, const double* velocity, std::size_t nodes, double h)
+    static void advance(double* position, double* velocity, std::size_t nodes, double h)
     {
-        const __m128d step = _mm_set1_pd(h);
-        for (std::size_t n = 0; n < nodes; ++n)
-            _mm_storeu_pd(position + 2 * n,
-                          _mm_add_pd(_mm_loadu_pd(position + 2 * n), _mm_mul_pd(step, _mm_loadu_pd(velocity + 2 * n))));
+        const __m128d step = _mm_set1_pd(h), signs = _mm_set1_pd(-0.0), slow = _mm_set1_pd(0.7 * kMostSpeed);
+        for (std::size_t n = 0; n < nodes; ++n) {
+            __m128d v = _mm_loadu_pd(velocity + 2 * n);
+            if (_mm_movemask_pd(_mm_cmple_pd(_mm_andnot_pd(signs, v), slow)) != 3) {
+                v = limited(v);
+                _mm_storeu_pd(velocity + 2 * n, v);
+            }
+            _mm_storeu_pd(position + 2 * n, _mm_add_pd(_mm_loadu_pd(position + 2 * n), _mm_mul_pd(step, v)));
+        }
+    }
+
+    static __m128d limited(__m128d v)
+    {
+        const __m128d squares = _mm_mul_pd(v, v);
+        const __m128d sum = _mm_add_pd(squares, _mm_shuffle_pd(squares, squares, 1));
+        if (!(_mm_cvtsd_f64(sum) <= 1e300)) return _mm_setzero_pd();
+        const __m128d scale = _mm_div_pd(_mm_set1_pd(kMostSpeed), _mm_sqrt_pd(sum));
+        return _mm_mul_pd(v, _mm_min_pd(scale, _mm_set1_pd(1)));
     }
 
     static constexpr Kernels table{&relate, &pull, &accelerate, &advance};

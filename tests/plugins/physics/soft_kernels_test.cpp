@@ -117,10 +117,10 @@ TEST(SoftKernels, EveryInstructionSetGivesTheSameBits)
                                    coefficients.data(), tear.data(),        torn.data()};
         kernels.relate(at.data(), moving.data(), order.size(), {at[0], at[1], 1, 2}, relative.data());
         torn.resize(kernels.pull(springs, relative.data(), force.data()));
-        const double sum =
-            kernels.accelerate(moving.data(), force.data(), inverse.data(), order.size(), {1.0 / 480, 0.3, 9.8, 0.999});
+        const std::vector<double> pulled = force;
+        kernels.accelerate(moving.data(), force.data(), inverse.data(), order.size(), {1.0 / 480, 0.3, 9.8, 0.999});
         kernels.advance(at.data(), moving.data(), order.size(), 1.0 / 480);
-        return std::tuple(at, moving, force, relative, torn, sum);
+        return std::tuple(at, moving, pulled, relative, torn);
     };
     EXPECT_EQ(run(kernelsSse2()), run(kernelsAvx2()));
     EXPECT_FALSE(std::get<4>(run(kernelsSse2())).empty());
