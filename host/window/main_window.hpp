@@ -9,11 +9,12 @@
 #include "window/format_controller.hpp"
 #include "window/launch.hpp"
 #include "window/message_bar.hpp"
-#include "window/no_plugins.hpp"
 #include "window/play_controller.hpp"
 #include "window/project_controller.hpp"
 #include "window/tool_controller.hpp"
 #include "window/view_controller.hpp"
+
+#include <jet/unmanaged_plugins.hpp>
 
 #include <QMainWindow>
 
@@ -86,7 +87,7 @@ private:
     void showPointer(const QPointF& scene);
 
     Catalog& catalog_;
-    NoPlugins noPlugins_;
+    UnmanagedPlugins noPlugins_;
     PluginsCenter& plugins_;
     EventsCenter& events_;
     bool safeMode_;

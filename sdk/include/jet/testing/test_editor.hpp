@@ -7,6 +7,7 @@
 #pragma once
 
 #include <jet/editor.hpp>
+#include <jet/unmanaged_plugins.hpp>
 
 #include <memory>
 #include <string>
@@ -38,6 +39,13 @@ public:
     void showStatus(std::string text) override { status = std::move(text); }
     ItemId activeLayer() const override { return layer_; }
     void setActiveLayer(ItemId layer) override { layer_ = layer; }
+    /// There are none to manage.
+    PluginsCenter& plugins() override { return plugins_; }
+    /// The catalog's explanation, as a message.
+    void showMissing(ContributionKind kind, std::string_view id) override
+    {
+        messages.push_back(catalog_.explain(kind, id));
+    }
 
     std::vector<OutputLine> output;
     std::vector<std::string> messages;
@@ -50,6 +58,7 @@ private:
     Catalog& catalog_;
     std::unique_ptr<Project> project_;
     SimulationCenter simulation_;
+    UnmanagedPlugins plugins_;
     Scene* activeScene_ = nullptr;
     std::string tool_;
     ItemId layer_;

@@ -1,14 +1,16 @@
-// NoPlugins: the plugins center of a window without a plugin manager, as tests start it.
+// UnmanagedPlugins: the plugins center of a program without a plugin manager, such as a test: there is nothing to
+// switch or install, and what is missing is explained by the catalog.
 #pragma once
 
 #include <jet/plugins.hpp>
 #include <jet/settings.hpp>
 
-namespace jet::host {
+namespace jet {
 
-class NoPlugins final : public PluginsCenter {
+class UnmanagedPlugins final : public PluginsCenter {
 public:
-    explicit NoPlugins(const Catalog& catalog) : catalog_(catalog) {}
+    /// The catalog outlives it.
+    explicit UnmanagedPlugins(const Catalog& catalog) : catalog_(catalog) {}
 
     std::vector<PluginInfo> plugins() const override { return {}; }
     std::optional<PluginInfo> plugin(std::string_view) const override { return std::nullopt; }
@@ -30,4 +32,4 @@ private:
     const Catalog& catalog_;
 };
 
-}  // namespace jet::host
+}  // namespace jet
