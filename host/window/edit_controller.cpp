@@ -2,8 +2,8 @@
 
 #include "canvas/insertion_point.hpp"
 #include "window/scene_clipboard.hpp"
-#include "window/selected_items.hpp"
 
+#include <jet/arrange.hpp>
 #include <jet/effect.hpp>
 
 #include <QCoreApplication>
@@ -61,7 +61,9 @@ std::vector<ActionSpec> EditController::actions()
          redoLabel},
         {"edit.cut", QT_TRANSLATE_NOOP("Actions", "Cu&t"), "cut", "Ctrl+X", [this] { cut(); }, selected},
         {"edit.copy", QT_TRANSLATE_NOOP("Actions", "&Copy"), "copy", "Ctrl+C", [this] { copy(); }, selected},
-        {"edit.paste", QT_TRANSLATE_NOOP("Actions", "&Paste"), "paste", "Ctrl+V", [this] { paste(); }, open},
+        {"edit.paste", QT_TRANSLATE_NOOP("Actions", "&Paste"), "paste", "Ctrl+V", [this] { paste(false); }, open},
+        {"edit.paste-in-place", QT_TRANSLATE_NOOP("Actions", "Paste in p&lace"), "paste", "Ctrl+Shift+V",
+         [this] { paste(true); }, open},
         {"edit.delete", QT_TRANSLATE_NOOP("Actions", "&Delete"), "trash", "Del", [this] { remove(); }, selected},
         {"edit.duplicate", QT_TRANSLATE_NOOP("Actions", "D&uplicate"), "duplicate", "Ctrl+D", [this] { duplicate(); },
          selected},
@@ -105,7 +107,7 @@ void EditController::cut()
     edit.commit();
 }
 
-void EditController::paste()
+void EditController::paste(bool inPlace)
 {
     Scene& front = readyScene();
     EventsCenter quiet;  // the clipboard's scene is nobody's business
@@ -117,7 +119,7 @@ void EditController::paste()
     for (const auto& clip : clips->root().children()) {
         // A layer goes beside layers, everything else into the place for new items.
         const Item& copy = edit.addCopy(*clip, clip->is<LayerItem>() ? front.root() : place);
-        offset(edit, copy);
+        if (!inPlace) offset(edit, copy);
         pasted.push_back(copy.id());
     }
     edit.setSelection(std::move(pasted));
@@ -157,13 +159,10 @@ void EditController::selectAll()
 void EditController::group()
 {
     Scene& front = readyScene();
-    const std::vector<const Item*> members = topSelection(front);
     auto edit = front.items().begin("Group");
-    const Item* last = members.back();  // the group appears where its top-most member was
-    const Item& parent = last->is<LayerItem>() ? front.root() : *last->parent();
-    const Item& made = edit.add(GroupItem::type, parent, {}, last->index() + 1);
-    for (const Item* member : members) edit.move(*member, made, made.children().size());
-    edit.select(made);
+    const Item* made = groupItems(edit, topSelection(front));
+    if (!made) return editor_.showMessage(tr("Layers cannot be grouped. Select items inside of them.").toStdString());
+    edit.select(*made);
     edit.commit();
 }
 
@@ -171,18 +170,11 @@ void EditController::ungroup()
 {
     Scene& front = readyScene();
     auto edit = front.items().begin("Ungroup");
-    std::vector<ItemId> freed;
-    for (const Item* group : topSelection(front)) {
-        if (!group->is<GroupItem>()) continue;
-        while (!group->children().empty()) {
-            const Item& member = *group->children().front();
-            freed.push_back(member.id());
-            edit.move(member, *group->parent(), group->index());
-        }
-        edit.remove(*group);
-    }
+    const ItemList freed = ungroupItems(edit, topSelection(front));
     if (freed.empty()) return;  // leaving without commit: nothing happened
-    edit.setSelection(std::move(freed));
+    std::vector<ItemId> ids;
+    for (const Item* item : freed) ids.push_back(item->id());
+    edit.setSelection(std::move(ids));
     edit.commit();
 }
 

@@ -31,7 +31,8 @@ private:
     void redo();
     void copy();
     void cut();
-    void paste();
+    /// Into the place for new items, a little aside; in place: where the items were.
+    void paste(bool inPlace);
     void remove();
     void duplicate();
     void selectAll();

@@ -19,8 +19,9 @@ namespace {
 constexpr MenuSpec kMenus[] = {
     {QT_TRANSLATE_NOOP("Actions", "&File"),
      "file.new file.open @recent | file.save file.save-as | file.import file.export | view.close file.quit"},
-    {QT_TRANSLATE_NOOP("Actions", "&Edit"), "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.duplicate "
-                                            "edit.delete | edit.select-all edit.group edit.ungroup"},
+    {QT_TRANSLATE_NOOP("Actions", "&Edit"),
+     "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.paste-in-place edit.duplicate "
+     "edit.delete | edit.select-all edit.group edit.ungroup"},
     {QT_TRANSLATE_NOOP("Actions", "&Scene"), "scene.new @scenes | @effects"},
     {QT_TRANSLATE_NOOP("Actions", "&View"),
      "view.zoom-in view.zoom-out view.zoom-reset view.frame | view.grid | @panels view.maximize view.reset-layout"},
@@ -46,8 +47,8 @@ MainWindow::MainWindow(const WindowLaunch& launch)
       documents_(new Documents(*this, toolOptions_, nullptr)),
       actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
       projects_(*this, *documents_, this), formats_(*this, *documents_, this), edits_(*this, *documents_, this),
-      player_(*this, *documents_, this), tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this),
-      views_(*documents_, docks_, this)
+      commands_(*this, *documents_, this), player_(*this, *documents_, this),
+      tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this), views_(*documents_, docks_, this)
 {
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -115,23 +116,7 @@ void MainWindow::createActions()
 void MainWindow::createMenus()
 {
     actions_.buildMenuBar(*menuBar(), kMenus);
-    createCommandMenus();
-}
-
-void MainWindow::createCommandMenus()
-{
-    for (const Contribution& command : catalog_.contributions(ContributionKind::Command)) {
-        const QString path = command.menu.empty() ? tr("Tools") : QString::fromStdString(command.menu);
-        QAction* action = Actions::menuAt(*menuBar(), path)->addAction(QString::fromStdString(command.label));
-        action->setShortcut(QKeySequence(QString::fromStdString(command.shortcut)));
-        connect(action, &QAction::triggered, this, [this, id = command.id] {
-            if (Command* wanted = catalog_.command(id)) {
-                wanted->run(*this);
-            } else {
-                showMissing(ContributionKind::Command, id);
-            }
-        });
-    }
+    commands_.build(*menuBar());
 }
 
 void MainWindow::createToolBars()

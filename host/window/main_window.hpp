@@ -2,6 +2,7 @@
 #pragma once
 
 #include "window/actions.hpp"
+#include "window/command_controller.hpp"
 #include "window/dock_area.hpp"
 #include "window/documents.hpp"
 #include "window/edit_controller.hpp"
@@ -72,7 +73,6 @@ private:
     QWidget* createCentral();
     void createActions();
     void createMenus();
-    void createCommandMenus();
     void createToolBars();
     void createStatusBar();
     void connectDocuments();
@@ -102,6 +102,7 @@ private:
     ProjectController projects_;
     FormatController formats_;
     EditController edits_;
+    CommandController commands_;
     PlayController player_;
     ToolController tools_;
     DockArea docks_;

@@ -28,18 +28,28 @@ void copyToClipboard(const std::vector<const Item*>& items, const Scene& scene)
     QGuiApplication::clipboard()->setMimeData(data);  // takes it
 }
 
-bool clipboardHasItems()
+namespace {
+
+// A text editor, a chat or another program may have passed it on as plain text.
+QByteArray clipboardText()
 {
     const QMimeData* data = QGuiApplication::clipboard()->mimeData();
-    return data && data->hasFormat(kMimeType);
+    if (!data) return {};
+    if (data->hasFormat(kMimeType)) return data->data(kMimeType);
+    const QByteArray text = data->text().trimmed().toUtf8();
+    return text.startsWith("<scene") || (text.startsWith("<?xml") && text.contains("<scene")) ? text : QByteArray();
 }
+
+}  // namespace
+
+bool clipboardHasItems() { return !clipboardText().isEmpty(); }
 
 std::unique_ptr<Scene> sceneOnClipboard(EventsCenter& events, Catalog& catalog)
 {
-    if (!clipboardHasItems()) return nullptr;
+    const QByteArray text = clipboardText();
+    if (text.isEmpty()) return nullptr;
     std::vector<FormatNote> notes;
-    const std::string text = QGuiApplication::clipboard()->mimeData()->data(kMimeType).toStdString();
-    return readSceneText(text, "clipboard", events, catalog, notes).orThrow();
+    return readSceneText(text.toStdString(), "clipboard", events, catalog, notes).orThrow();
 }
 
 }  // namespace jet::host

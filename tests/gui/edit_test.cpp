@@ -55,6 +55,31 @@ TEST_F(EditTest, WhatIsCopiedCanBePastedIntoAnotherProject)
     EXPECT_EQ(shapes().front()->effects().size(), 1u);
 }
 
+TEST_F(EditTest, PastingInPlacePutsTheCopiesWhereTheirOriginalsWere)
+{
+    trigger("edit.select-all");
+    trigger("edit.copy");
+    trigger("edit.paste-in-place");
+    ASSERT_EQ(shapes().size(), 4u);
+    EXPECT_EQ(shapes()[0]->path(), shapes()[2]->path());
+    EXPECT_EQ(shapes()[1]->path(), shapes()[3]->path());
+    expectOneStep();
+}
+
+TEST_F(EditTest, ItemsThatCameAsPlainTextArePasted)
+{
+    trigger("edit.select-all");
+    trigger("edit.copy");
+    const QString text = QApplication::clipboard()->text();
+    ASSERT_TRUE(text.contains("<scene"));
+    QApplication::clipboard()->setText("  " + text + "\n");
+    trigger("edit.paste");
+    EXPECT_EQ(shapes().size(), 4u);
+    QApplication::clipboard()->setText("a <scene of other words");
+    trigger("edit.paste");
+    EXPECT_EQ(shapes().size(), 4u);
+}
+
 TEST_F(EditTest, CutAndPasteKeepTheShape)
 {
     const Path path = shapes().back()->path();
