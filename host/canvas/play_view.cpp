@@ -21,17 +21,22 @@ constexpr int kFramePixels = 3;
 /// The poses of one frame.
 class FramePoses final : public PoseSource {
 public:
-    explicit FramePoses(const SimulationFrame& frame) : poses_(frame.poses) {}
+    explicit FramePoses(const SimulationFrame& frame) : frame_(frame) {}
 
-    const Path* pose(const Item& item) const override
-    {
-        const auto found = std::lower_bound(poses_.begin(), poses_.end(), item.id(),
-                                            [](const auto& pose, ItemId id) { return pose.first < id; });
-        return found != poses_.end() && found->first == item.id() ? &found->second : nullptr;
-    }
+    const Path* pose(const Item& item) const override { return find(frame_.poses, item.id()); }
+    const LiveBody* liveBody(const Item& item) const override { return find(frame_.bodies, item.id()); }
 
 private:
-    const std::vector<std::pair<ItemId, Path>>& poses_;
+    /// In a list that is sorted by id.
+    template <class T>
+    static const T* find(const std::vector<std::pair<ItemId, T>>& list, ItemId id)
+    {
+        const auto found = std::lower_bound(list.begin(), list.end(), id,
+                                            [](const auto& entry, ItemId wanted) { return entry.first < wanted; });
+        return found != list.end() && found->first == id ? &found->second : nullptr;
+    }
+
+    const SimulationFrame& frame_;
 };
 
 }  // namespace

@@ -142,6 +142,11 @@ public:
             throw Failure(Error("the plugin " + g_.plugin.title() + " failed; the effect was not applied"));
         }
     }
+    bool wantsLiveBody() const override
+    {
+        return g_.guard.call(
+            g_.plugin, "Effect::wantsLiveBody", [&] { return g_.inner->wantsLiveBody(); }, false);
+    }
     std::unique_ptr<EffectState> update(const EffectInput& input) const override
     {
         return g_.guard.call(

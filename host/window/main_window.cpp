@@ -6,11 +6,14 @@
 #include <QCoreApplication>
 #include <QLabel>
 #include <QMenuBar>
+#include <QProgressDialog>
 #include <QSettings>
 #include <QStatusBar>
 #include <QTimer>
 #include <QToolBar>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace jet::host {
 
@@ -263,6 +266,18 @@ void MainWindow::showMissing(ContributionKind kind, std::string_view id)
                            }});
     }
     messages_->add(QString::fromStdString(provider.sentence), std::move(actions));
+}
+
+Progress MainWindow::progress(const std::string& label)
+{
+    constexpr int kSteps = 1000;
+    const auto dialog = std::make_shared<QProgressDialog>(QString::fromStdString(label), tr("Cancel"), 0, kSteps, this);
+    dialog->setWindowModality(Qt::WindowModal);  // setValue() then handles events, so that Cancel can be pressed
+    dialog->setMinimumDuration(500);
+    return Progress{[dialog](double done) {
+        dialog->setValue(static_cast<int>(std::clamp(done, 0.0, 1.0) * kSteps));
+        return !dialog->wasCanceled();
+    }};
 }
 
 void MainWindow::showStatus(std::string text) { status_->setText(QString::fromStdString(text)); }

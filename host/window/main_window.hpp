@@ -65,6 +65,7 @@ public:
     void setActiveLayer(ItemId layer) override;
     PluginsCenter& plugins() override { return plugins_; }
     void showMissing(ContributionKind kind, std::string_view id) override;
+    Progress progress(const std::string& label) override;
 
 protected:
     void closeEvent(QCloseEvent* event) override;

@@ -19,11 +19,14 @@ void Catalog::recall(const PluginUse&) {}
 Importer::~Importer() = default;
 Exporter::~Exporter() = default;
 PoseSource::~PoseSource() = default;
+const LiveBody* PoseSource::liveBody(const Item&) const { return nullptr; }
 ScriptRuntime::~ScriptRuntime() = default;
 ScriptEngine::~ScriptEngine() = default;
 WorldBuilder::~WorldBuilder() = default;
 Editor::~Editor() = default;
 Panel::~Panel() = default;
+
+Progress Editor::progress(const std::string&) { return {}; }
 
 Command::~Command() = default;
 bool Command::isEnabled(Editor&) const { return true; }
@@ -37,6 +40,7 @@ std::string Effect::rejects(const Item& item) const
 void Effect::applied(Transaction&, const Item&) const {}
 std::unique_ptr<EffectState> Effect::update(const EffectInput&) const { return nullptr; }
 void Effect::paint(const EffectInput&, const EffectState*, PaintPurpose, Painter&) const {}
+bool Effect::wantsLiveBody() const { return false; }
 std::optional<BodyDef> Effect::buildBody(const EffectInput&, const BodyCommon&) const { return std::nullopt; }
 
 ItemType::~ItemType() = default;

@@ -20,24 +20,8 @@ void paintPlaceholder(const Path& path, PaintPurpose purpose, Painter& painter)
     painter.stroke(path, pen);
 }
 
-void paintTree(const Scene& scene, const Item& item, const PoseSource* poses, PaintPurpose purpose, const Box& clip,
-               Painter& painter)
-{
-    if (!item.visible()) return;
-    const Path* pose = poses ? poses->pose(item) : nullptr;
-    if (!item.path().isEmpty()) {
-        const Path& path = pose ? *pose : item.path();
-        // Strokes reach beyond the path's own bounds; a generous margin costs less than a missing edge.
-        const Box box = path.bounds();
-        const double margin = 0.25 * std::max(box.width(), box.height()) + 32;
-        if (clip.intersects(box.inflated(margin))) paintItem(scene, item, path, purpose, painter);
-    }
-    for (const auto& child : item.children()) paintTree(scene, *child, poses, purpose, clip, painter);
-}
-
-}  // namespace
-
-void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurpose purpose, Painter& painter)
+void paintOne(const Scene& scene, const Item& item, const Path& path, const LiveBody* body, PaintPurpose purpose,
+              Painter& painter)
 {
     // Derived data belongs to the path the item was drawn with; a moving body's path is another in each frame.
     const bool keep = purpose == PaintPurpose::Edit && &path == &item.path();
@@ -49,7 +33,7 @@ void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurp
             paintPlaceholder(path, purpose, painter);
             continue;
         }
-        const EffectInput input{item, path, instance.properties, effect->properties()};
+        const EffectInput input{item, path, instance.properties, effect->properties(), body};
         effect->paint(input, keep ? scene.effectStates().get(*effect, input, i) : nullptr, purpose, painter);
     }
     if (const ItemType* type = itemTypeOf(scene.catalog(), item.type())) {
@@ -57,6 +41,29 @@ void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurp
     } else {
         paintPlaceholder(path, purpose, painter);
     }
+}
+
+void paintTree(const Scene& scene, const Item& item, const PoseSource* poses, PaintPurpose purpose, const Box& clip,
+               Painter& painter)
+{
+    if (!item.visible()) return;
+    const Path* pose = poses ? poses->pose(item) : nullptr;
+    if (!item.path().isEmpty()) {
+        const Path& path = pose ? *pose : item.path();
+        // Strokes reach beyond the path's own bounds; a generous margin costs less than a missing edge.
+        const Box box = path.bounds();
+        const double margin = 0.25 * std::max(box.width(), box.height()) + 32;
+        if (clip.intersects(box.inflated(margin)))
+            paintOne(scene, item, path, poses ? poses->liveBody(item) : nullptr, purpose, painter);
+    }
+    for (const auto& child : item.children()) paintTree(scene, *child, poses, purpose, clip, painter);
+}
+
+}  // namespace
+
+void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurpose purpose, Painter& painter)
+{
+    paintOne(scene, item, path, nullptr, purpose, painter);
 }
 
 void paintScene(const Scene& scene, const PoseSource* poses, PaintPurpose purpose, const Box& clip, Painter& painter)

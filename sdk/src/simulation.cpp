@@ -198,6 +198,22 @@ const Path* Simulation::pose(const Item& item) const
     return &d_->poses[i];
 }
 
+const LiveBody* Simulation::liveBody(const Item& item) const
+{
+    const std::size_t i = d_->bindingOf(item.id());
+    if (i >= d_->bodies.size() || !d_->bodies[i].live) return nullptr;
+    BodyBinding& binding = d_->bodies[i];
+    if (binding.liveAt != d_->steps + 1) {
+        const BodyStates states = d_->world->bodies();
+        const auto points = states.points.subspan(states.firstPoint[binding.body], binding.live->particles.size());
+        std::copy(points.begin(), points.end(), binding.live->particles.begin());
+        for (std::uint32_t s = 0; s < binding.live->springs.size(); ++s)
+            binding.live->springs[s].whole = d_->world->springAlive(binding.body, s);
+        binding.liveAt = d_->steps + 1;
+    }
+    return &*binding.live;
+}
+
 void Simulation::setTorque(ItemId item, double value)
 {
     d_->torques[item] = value;

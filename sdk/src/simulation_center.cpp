@@ -66,7 +66,10 @@ struct SimulationCenter::Private {
         next->view = simulation.view();
         simulation.scene().root().walk([&](const Item& item) {
             if (const Path* pose = simulation.pose(item)) next->poses.emplace_back(item.id(), *pose);
+            if (const LiveBody* body = simulation.liveBody(item)) next->bodies.emplace_back(item.id(), *body);
         });
+        std::sort(next->bodies.begin(), next->bodies.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
         std::sort(next->poses.begin(), next->poses.end(),
                   [](const auto& a, const auto& b) { return a.first < b.first; });
         {

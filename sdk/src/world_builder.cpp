@@ -23,6 +23,28 @@ WorldSettings worldSettings(const Scene& scene, int threads)
     return settings;
 }
 
+namespace {
+
+bool wantsLiveBody(const Scene& scene, const Item& item)
+{
+    return std::any_of(item.effects().begin(), item.effects().end(), [&](const EffectInstance& instance) {
+        const Effect* effect = scene.catalog().effect(instance.type);
+        return effect && effect->wantsLiveBody();
+    });
+}
+
+LiveBody liveBodyOf(const SoftBodyDef& def)
+{
+    LiveBody live;
+    live.particles = def.particles;
+    live.springs.reserve(def.springs.size());
+    for (const SpringDef& spring : def.springs)
+        live.springs.push_back({spring.a, spring.b, spring.restLength, spring.ks, true});
+    return live;
+}
+
+}  // namespace
+
 BodyCommon SceneWorldBuilder::common(const Item& item)
 {
     const PropertyTable& table = builtInItemType(BodyItem::type)->properties();
@@ -81,6 +103,7 @@ void SceneWorldBuilder::addBody(const Item& item)
             binding.soft = true;
             binding.body = world_.addSoftBody(*soft);
             binding.skin = Skin(item.path(), *soft);
+            if (wantsLiveBody(scene_, item)) binding.live = liveBodyOf(*soft);
         } else {
             binding.body = world_.addRigidBody(std::get<RigidBodyDef>(*def));
         }

@@ -7,6 +7,7 @@
 #include <jet/simulation.hpp>
 
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 namespace jet {
@@ -20,6 +21,8 @@ struct BodyBinding {
     Vec2 restPosition;  ///< centre of mass when play started
     Skin skin;
     Path restPath;
+    std::optional<LiveBody> live;  ///< soft bodies with an effect that wants it
+    std::uint64_t liveAt = 0;      ///< steps + 1 when `live` was brought up to date
 };
 
 class SceneWorldBuilder final : public WorldBuilder {

@@ -57,6 +57,10 @@ public:
     /// Tells the user why the catalog has no such contribution, with a button that mends it where one can. For formats
     /// `id` is an extension.
     virtual void showMissing(ContributionKind kind, std::string_view id) = 0;
+    /// For a command whose work takes longer than a moment: call it now and then with 0..1; false means that the user
+    /// cancelled. The window shows a bar with a Cancel button after half a second; it is gone when the returned object
+    /// is. Call it outside of transactions: compute first, then change the scene. The default never cancels.
+    virtual Progress progress(const std::string& label);
 };
 
 /// A menu command. Stateless; declared in the manifest with menu, label and shortcut.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <jet/item.hpp>
+#include <jet/live_body.hpp>
 #include <jet/painter.hpp>
 #include <jet/physics.hpp>
 
@@ -38,6 +39,8 @@ struct EffectInput {
     const Path& path;              ///< the item's path, or its deformed path while playing
     const Properties& properties;  ///< of this effect instance
     const PropertyTable& table;    ///< of this effect
+    /// The item's soft body while playing, for effects whose wantsLiveBody() says so; else null. Lives during the call.
+    const LiveBody* body = nullptr;
 
     /// The stored value, or the default.
     template <class T>
@@ -65,6 +68,9 @@ public:
     /// The body this effect gives the item, in scene coordinates; none for effects that are only looks. `common` holds
     /// the body item's own properties (fixed, material, ...), to be copied into the definition.
     virtual std::optional<BodyDef> buildBody(const EffectInput& input, const BodyCommon& common) const;
+    /// Shall paint() get the item's running soft body (EffectInput::body)? Asked when play starts. It costs a copy of
+    /// the body in each frame, so the answer is no unless the effect draws particles or springs.
+    virtual bool wantsLiveBody() const;
 };
 
 }  // namespace jet

@@ -44,12 +44,16 @@ public:
     virtual Result<void> read(ImportRequest& request) = 0;
 };
 
+struct LiveBody;
+
 /// Gives each item its path while playing; see SceneView.
 class JET_API PoseSource {
 public:
     virtual ~PoseSource();
     /// The item's present path; null: the path it was drawn with.
     virtual const Path* pose(const Item& item) const = 0;
+    /// Its soft body, where one of its effects wants it; else null.
+    virtual const LiveBody* liveBody(const Item& item) const;
 };
 
 /// Which part of a scene is seen, and how large.

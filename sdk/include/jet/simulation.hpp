@@ -10,6 +10,7 @@
 #include <jet/events.hpp>
 #include <jet/format.hpp>
 #include <jet/input.hpp>
+#include <jet/live_body.hpp>
 #include <jet/physics.hpp>
 #include <jet/scene.hpp>
 #include <jet/script.hpp>
@@ -73,6 +74,7 @@ public:
     ItemId itemOf(BodyHandle body) const;
     ActuatorHandle actuatorOf(ItemId item) const;
     const Path* pose(const Item& item) const override;
+    const LiveBody* liveBody(const Item& item) const override;
     /// In the thesis's sign: positive turns left (counter-clockwise on screen).
     void setTorque(ItemId item, double value);
     double torque(ItemId item) const;
@@ -125,7 +127,8 @@ struct SimulationFrame {
     double time = 0;
     double stepMs = 0;  ///< wall time of the last step
     GameView view;
-    std::vector<std::pair<ItemId, Path>> poses;  ///< items with a body, sorted by id
+    std::vector<std::pair<ItemId, Path>> poses;       ///< items with a body, sorted by id
+    std::vector<std::pair<ItemId, LiveBody>> bodies;  ///< of items with an effect that wants it, sorted by id
 };
 
 /// Sent by the SimulationCenter on the owner thread of its EventsCenter.

@@ -16,6 +16,14 @@ void TestEditor::openScene(Scene& scene)
     events_.post(static_cast<Editor*>(this), ActiveSceneChanged{&scene});
 }
 
+Progress TestEditor::progress(const std::string&)
+{
+    return Progress{[this](double done) {
+        progressed.push_back(done);
+        return done < cancelAt;
+    }};
+}
+
 void TestEditor::openScript(Scene&, ItemId script, int line) { openedScripts.emplace_back(script, line); }
 
 void TestEditor::setActiveTool(std::string_view id)

@@ -87,6 +87,13 @@ RecordingPainter Workbench::painted(PaintPurpose purpose)
     return painter;
 }
 
+RecordingPainter Workbench::painted(const Simulation& simulation)
+{
+    RecordingPainter painter(host_.scale);
+    paintScene(simulation.scene(), &simulation, PaintPurpose::Play, wholePlane(), painter);
+    return painter;
+}
+
 Imported Workbench::importFile(const std::filesystem::path& file)
 {
     const Result<std::string> content = readFile(file);

@@ -46,12 +46,16 @@ public:
     {
         messages.push_back(catalog_.explain(kind, id));
     }
+    /// Notes what is reported in `progressed`, and cancels from `cancelAt` on.
+    Progress progress(const std::string& label) override;
 
     std::vector<OutputLine> output;
     std::vector<std::string> messages;
     std::string status;
     std::vector<std::pair<ItemId, int>> openedScripts;  ///< script and line
     Properties toolOptions;
+    std::vector<double> progressed;  ///< 0..1, in the order reported
+    double cancelAt = 2;             ///< above 1: never
 
 private:
     EventsCenter& events_;

@@ -93,6 +93,8 @@ public:
     /// What is painted for one item, or for the whole scene.
     RecordingPainter painted(const Item& item, PaintPurpose purpose = PaintPurpose::Export);
     RecordingPainter painted(PaintPurpose purpose = PaintPurpose::Export);
+    /// What a running game shows.
+    RecordingPainter painted(const Simulation& simulation);
 
     /// Runs the importer of the extension of `file`, as one undo step; a failed import leaves nothing.
     Imported importFile(const std::filesystem::path& file);
