@@ -108,24 +108,12 @@ def links(_):
 
 
 def hello_tool(scratch):
-    """The guide's tool is the one in examples/, builds out of tree against the installed SDK, and loads."""
-    extract("docs/guide/hello-tool.md", scratch)
+    """The first chapter of the guide shows the example's files. scripts/check-examples builds all chapters."""
+    extract("docs/guide/1-hello-tool.md", scratch)
     example = SOURCE / "examples/plugins/hello-tool"
-    for file in example.iterdir():
-        shown = scratch / "hello-tool" / file.name
-        check(shown.exists() and shown.read_text() == file.read_text(), f"the guide shows another {file.name} than {example}")
-    prefix, build = scratch / "jet", scratch / "build"
-
-    def run(*command):
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
-        check(done.returncode == 0, f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-
-    run("cmake", "--install", BUILD, "--prefix", prefix)
-    run("cmake", "-G", "Ninja", "-S", scratch / "hello-tool", "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release")
-    run("cmake", "--build", build)
-    installed = [prefix / "bin" / "jet", "plugins", "info", "org.example.hello", "--plugin-path", build / "lib/jet/plugins"]
-    done = subprocess.run(list(map(str, installed)), capture_output=True, text=True)
-    check(done.returncode == 0 and "state    loaded" in done.stdout, f"the tool does not load:\n{done.stdout}{done.stderr}")
+    for shown in (scratch / "hello-tool").iterdir():
+        file = example / shown.name
+        check(file.exists() and shown.read_text() == file.read_text(), f"the guide shows another {file.name} than {example}")
 
 
 scratch_folder = pathlib.Path(tempfile.mkdtemp())

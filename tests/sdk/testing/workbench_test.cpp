@@ -47,13 +47,35 @@ private:
     void note(const std::string& word) { host().showStatus(static_cast<TestToolHost&>(host()).status + word + " "); }
 };
 
+/// Strokes the springs of a running soft body.
+class SpringsEffect final : public Effect {
+public:
+    const PropertyTable& properties() const override
+    {
+        static const PropertyTable none;
+        return none;
+    }
+    bool wantsLiveBody() const override { return true; }
+    void paint(const EffectInput& input, const EffectState*, PaintPurpose, Painter& painter) const override
+    {
+        if (!input.body) return;
+        for (const LiveSpring& spring : input.body->springs)
+            painter.stroke(Path::line(input.body->particles[spring.a], input.body->particles[spring.b]), Pen());
+    }
+};
+
 class WorkbenchTest : public PluginTest {
 protected:
     WorkbenchTest()
-        : PluginTest{"org.jet.tool.rectangle", "org.jet.effect.polygon-face", "org.jet.effect.in-path-rigid-body",
-                     "org.jet.io-svg", "org.jet.physics"}
+        : PluginTest{"org.jet.tool.rectangle",
+                     "org.jet.effect.polygon-face",
+                     "org.jet.effect.in-path-rigid-body",
+                     "org.jet.effect.in-path-body",
+                     "org.jet.io-svg",
+                     "org.jet.physics"}
     {
         catalog().inCode().command<RenameCommand>("rename");
+        catalog().inCode().effect<SpringsEffect>("springs");
         catalog().inCode().tool<NotingTool>("noting");
         catalog().inCode().tool<NotingTool>("other");
     }
@@ -175,6 +197,46 @@ TEST_F(WorkbenchTest, PlaysACopyOfTheScene)
     EXPECT_EQ(simulation->stepCount(), 60u);
     EXPECT_GT(simulation->pose(square)->bounds().min.y(), 1.0) << "it fell";
     EXPECT_EQ(scene().hash(), before);
+}
+
+TEST_F(WorkbenchTest, AnEffectThatAsksForItSeesTheRunningSoftBody)
+{
+    const Item& jelly = addRectangle({{0, 0}, {40, 40}});
+    apply("in-path-body", jelly);
+    apply("springs", jelly);
+    EXPECT_TRUE(painted(PaintPurpose::Play).strokes().empty()) << "nothing runs";
+    const auto simulation = play(60);
+    const LiveBody* body = simulation->liveBody(jelly);
+    ASSERT_NE(body, nullptr);
+    EXPECT_EQ(painted(*simulation).strokes().size(), body->springs.size());
+    EXPECT_GT(painted(*simulation).bounds().min.y(), 1.0) << "drawn where the body fell to";
+    for (const LiveSpring& spring : body->springs) EXPECT_TRUE(spring.whole);
+}
+
+TEST_F(WorkbenchTest, ABodyThatNoEffectAsksForIsNotCopied)
+{
+    const Item& jelly = addRectangle({{0, 0}, {40, 40}});
+    apply("in-path-body", jelly);
+    EXPECT_EQ(play()->liveBody(jelly), nullptr);
+}
+
+TEST(LiveBody, StrainIsRelativeAndATornSpringHasNone)
+{
+    LiveBody body{{{0, 0}, {12, 0}, {0, 8}}, {{0, 1, 10, 50, true}, {0, 2, 10, 50, true}, {0, 1, 10, 50, false}}};
+    EXPECT_DOUBLE_EQ(body.strain(body.springs[0]), 12.0 / 10 - 1);
+    EXPECT_DOUBLE_EQ(body.strain(body.springs[1]), 8.0 / 10 - 1);
+    EXPECT_DOUBLE_EQ(body.tension(body.springs[0]), 50 * 2.0);
+    EXPECT_EQ(body.strain(body.springs[2]), 0);
+    EXPECT_EQ(body.tension(body.springs[2]), 0);
+}
+
+TEST_F(WorkbenchTest, ProgressIsNotedAndCanBeCancelled)
+{
+    const Progress progress = editor().progress("Working");
+    EXPECT_TRUE(progress(0.25));
+    editor().cancelAt = 0.5;
+    EXPECT_FALSE(progress(0.5));
+    EXPECT_THAT(editor().progressed, ElementsAre(0.25, 0.5));
 }
 
 TEST_F(WorkbenchTest, ASavedSceneReadsBackEqual)
