@@ -1,5 +1,6 @@
 // Names every public type of the SDK, so that debug information and tables of virtual functions tell of all of them,
 // also of those that no exported function mentions. Written by scripts/check-abi --update.
+#include <jet/arrange.hpp>
 #include <jet/box_tool.hpp>
 #include <jet/catalog.hpp>
 #include <jet/change.hpp>
@@ -16,6 +17,7 @@
 #include <jet/materials.hpp>
 #include <jet/painter.hpp>
 #include <jet/path.hpp>
+#include <jet/path_operations.hpp>
 #include <jet/physics.hpp>
 #include <jet/plugin.hpp>
 #include <jet/plugins.hpp>
@@ -29,6 +31,7 @@
 #include <jet/tool.hpp>
 #include <jet/ui/panel.hpp>
 #include <jet/ui/qt_painter.hpp>
+#include <jet/unmanaged_plugins.hpp>
 #include <jet/value.hpp>
 
 #include <type_traits>
@@ -44,6 +47,10 @@ void lookAt(T* object)
     JET_API void abi_anchor(const __VA_ARGS__*) {}                                                                     \
     template void lookAt<__VA_ARGS__>(__VA_ARGS__*);
 
+TYPE(jet::Alignment)
+TYPE(jet::Distribution)
+TYPE(jet::FlipAxis)
+TYPE(jet::StackOrder)
 TYPE(jet::BoxTool)
 TYPE(jet::ContributionKind)
 TYPE(jet::Contribution)
@@ -126,6 +133,7 @@ TYPE(jet::Contour)
 TYPE(jet::PathPosition)
 TYPE(jet::Polyline)
 TYPE(jet::Path)
+TYPE(jet::Crossing)
 TYPE(jet::MaterialPair)
 TYPE(jet::WorldSettings)
 TYPE(jet::SpringDef)
@@ -183,6 +191,7 @@ TYPE(jet::ToolHost)
 TYPE(jet::Tool)
 TYPE(jet::Panel)
 TYPE(jet::ui::QtPainter)
+TYPE(jet::UnmanagedPlugins)
 TYPE(jet::ItemId)
 TYPE(jet::Color)
 TYPE(jet::RawText)
