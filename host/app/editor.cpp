@@ -1,6 +1,8 @@
 #include "editor.hpp"
 
+#include "host/packages/installer.hpp"
 #include "host/plugins/plugin_control.hpp"
+#include "host/plugins/project_trust.hpp"
 #include "host/window/launch.hpp"
 
 #include <cstdio>
@@ -8,6 +10,8 @@
 #include <dlfcn.h>
 
 namespace jet::host {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -28,6 +32,48 @@ JetRunWindow loadWindow(std::string& problem)
         problem = reason ? reason : "unknown reason";
     }
     return reinterpret_cast<JetRunWindow>(entry);
+}
+
+/// The plugins beside a project, if the user trusts them or says so now. Returns what the user should know.
+std::string bringIn(const fs::path& project, PluginManager& plugins, const GlobalOptions& global,
+                    const std::function<bool(const std::string&)>& ask)
+{
+    const auto found = findProjectPlugins(project);
+    for (const Plugin* plugin : plugins.plugins())
+        if (plugin->origin == PluginOrigin::Project && (!found || plugin->folder.parent_path() != found->folder))
+            plugins.removeFolder(fs::path(plugin->folder));  // of the project that was open before
+    if (!found) return {};
+    if (global.safeMode) return "The plugins of the project are left out in safe mode.";
+    if (!found->isTrusted()) {
+        if (found->fingerprint.empty()) return found->advice();
+        std::string question = found->trust == ProjectPlugins::Trust::Changed
+                                   ? "The plugins of this project changed since you trusted it:"
+                                   : "This project brings plugins of its own:";
+        for (const std::string& name : found->names) question += "\n" + (found->folder / name).string();
+        if (!global.trust && !ask(question)) return found->advice();
+        if (const auto stored = trustProject(*found); !stored) return stored.error().text();
+    }
+    plugins.addFolder(found->folder, PluginOrigin::Project);
+    return {};
+}
+
+PackageActions packageActions(PluginManager& plugins)
+{
+    PackageActions actions;
+    actions.install = [&plugins](const fs::path& file) -> Result<std::vector<PackageActions::Installed>> {
+        InstallOptions options;
+        options.folder = userPluginFolder();
+        options.installed = installedPlugins(plugins);
+        const auto done = installPackage(file, std::move(options));
+        if (!done) return done.error();
+        std::string message = done->name + " " + done->version.text() + " is installed.";
+        for (const std::string& note : done->notes) message += " " + note;
+        return std::vector<PackageActions::Installed>{{done->id, done->folder, message}};
+    };
+    actions.remove = [&plugins](const std::string& id) {
+        return removePlugin(id, {userPluginFolder(), installedPlugins(plugins), false});
+    };
+    return actions;
 }
 
 }  // namespace
@@ -54,9 +100,15 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
     }
     Session session(global);
     PluginManager& plugins = session.plugins();
-    PluginControl control(plugins, session.events());
+    PluginControl control(plugins, session.events(), packageActions(plugins));
+    const auto useProjectPlugins = [&](const fs::path& file, const std::function<bool(const std::string&)>& ask) {
+        const std::string told = bringIn(file, plugins, global, ask);
+        session.events().post(&control, PluginsChanged{});
+        return told;
+    };
     const WindowLaunch launch{
-        plugins, session.events(), project, global.safeMode, [&plugins] { return plugins.problems(); }, &control};
+        plugins,  session.events(), project, global.safeMode, [&plugins] { return plugins.problems(); },
+        &control, useProjectPlugins};
     return run(argc, argv, launch);
 }
 

@@ -19,6 +19,7 @@ void addGlobal(CLI::App& app, GlobalOptions& global)
     app.add_option("--plugin-path", global.pluginPath, "Folder of further plugins")->type_name("DIR")->take_all();
     app.add_option("--without", global.without, "As if this plugin were not installed")->type_name("ID")->take_all();
     app.add_flag("--safe-mode", global.safeMode, "Only the plugins that ship with JET");
+    app.add_flag("--trust", global.trust, "Trust the plugins that come with the project, from now on");
     app.add_flag("--json", global.json, "Print for a machine");
     app.add_flag("--verbose", global.verbose, "Say more");
 }
@@ -28,6 +29,7 @@ struct Parsed {
     ConvertOptions convert;
     std::string plugin, contribution;
     std::filesystem::path project;
+    bool revoke = false;
     std::function<int(Session&)> run;  // of the chosen command; empty: the editor
 };
 
@@ -91,8 +93,17 @@ void addPlugins(CLI::App& app, Parsed& parsed)
             [&parsed, action] { parsed.run = [&parsed, action](Session& s) { return action(s, parsed.plugin); }; });
     };
     one("info", "Everything about one plugin", [](Session& s, const std::string& id) { return pluginInfo(s, id); });
-    one("explain", "Which plugin provides a tool, effect, item type or file extension",
-        [](Session& s, const std::string& id) { return explainContribution(s, id); });
+    auto* explain =
+        plugins->add_subcommand("explain", "Which plugin provides a tool, effect, item type or file extension");
+    explain->add_option("id", parsed.plugin, "Id of the contribution, or .extension")->required()->type_name("ID");
+    explain->add_option("--project", parsed.project, "Also plugins this project was saved with")->type_name("PROJECT");
+    explain->callback(
+        [&parsed] { parsed.run = [&](Session& s) { return explainContribution(s, parsed.plugin, parsed.project); }; });
+    auto* trust = plugins->add_subcommand("trust", "Trust the plugins that come with a project");
+    trust->add_option("project", parsed.project, "Project folder or .jet file")->required()->type_name("PROJECT");
+    trust->add_flag("--revoke", parsed.revoke, "Trust them no longer");
+    trust->callback(
+        [&parsed] { parsed.run = [&](Session& s) { return trustPlugins(s, parsed.project, !parsed.revoke); }; });
     one("enable", "Switch a plugin on", [](Session& s, const std::string& id) { return enablePlugin(s, id, true); });
     one("disable", "Switch a plugin off", [](Session& s, const std::string& id) { return enablePlugin(s, id, false); });
     addPackageCommands(*plugins, parsed.run);

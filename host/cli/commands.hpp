@@ -34,7 +34,9 @@ int convert(Session& session, const ConvertOptions& options);
 
 int listPlugins(Session& session);
 int pluginInfo(Session& session, const std::string& id);
-int explainContribution(Session& session, const std::string& id);
+/// `project`, if given: what it says of plugins that are not installed counts, too.
+int explainContribution(Session& session, const std::string& id, const std::filesystem::path& project);
+int trustPlugins(Session& session, const std::filesystem::path& project, bool trusted);
 int enablePlugin(Session& session, const std::string& id, bool enable);
 
 int newProject(Session& session, const std::filesystem::path& folder);

@@ -146,6 +146,7 @@ private:
     {
         std::unique_ptr<Project> project;
         if (isProject(input)) {
+            session_.useProjectPlugins(input);
             project = Project::load(input, session_.events(), session_.plugins()).orThrow();
             for (const FormatNote& note : project->notes()) session_.warning(note.message, note.where);
         } else {

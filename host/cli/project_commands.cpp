@@ -11,6 +11,7 @@ namespace fs = std::filesystem;
 
 std::unique_ptr<Project> openProject(Session& session, const fs::path& path)
 {
+    session.useProjectPlugins(path);
     auto project = Project::load(path, session.events(), session.plugins());
     if (!project) {
         session.error(project.error());
@@ -75,6 +76,7 @@ int newProject(Session& session, const fs::path& folder)
 
 int checkProject(Session& session, const fs::path& path)
 {
+    session.useProjectPlugins(path);
     auto opened = Project::load(path, session.events(), session.plugins());
     if (!opened) {
         const Error& error = opened.error();

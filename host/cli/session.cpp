@@ -1,5 +1,7 @@
 #include "session.hpp"
 
+#include "host/plugins/project_trust.hpp"
+
 #include <jet/format.hpp>
 
 #include <nlohmann/json.hpp>
@@ -49,7 +51,10 @@ PluginManager& Session::plugins()
     options.disabled = readDisabledPlugins();
     if (const fs::path config = userConfigFolder(); !config.empty()) options.settings = config / "settings";
     options.safeMode = options_.safeMode;
-    if (!options_.set.empty()) options.only = readSet(options_.set);
+    if (!options_.set.empty()) {
+        options.only = readSet(options_.set);
+        options.setName = fs::path(options_.set).stem().string();
+    }
     plugins_ = std::make_unique<PluginManager>(std::move(options));
     plugins_->setProblemHandler([this](const PluginProblem& problem) {
         const std::lock_guard lock(mutex_);
@@ -57,6 +62,19 @@ PluginManager& Session::plugins()
     });
     plugins_->scan();
     return *plugins_;
+}
+
+void Session::useProjectPlugins(const fs::path& project)
+{
+    auto found = findProjectPlugins(project);
+    if (!found) return;
+    if (options_.safeMode) return warning("the plugins of the project are left out in safe mode");
+    if (options_.trust && !found->isTrusted()) {
+        trustProject(*found).orThrow();
+        found->trust = ProjectPlugins::Trust::Trusted;
+    }
+    if (!found->isTrusted()) return warning(found->advice());
+    plugins().addFolder(found->folder, PluginOrigin::Project);
 }
 
 void Session::tell(const std::string& text)

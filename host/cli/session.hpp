@@ -24,6 +24,7 @@ struct GlobalOptions {
     std::vector<std::string> without;
     std::string set;
     bool safeMode = false;
+    bool trust = false;  ///< trust the plugins of the projects that are opened
     bool json = false;
     bool verbose = false;
 };
@@ -36,6 +37,9 @@ public:
     EventsCenter& events() { return events_; }
     /// Scans the plugins on first use. Throws Failure when the plugin set cannot be read.
     PluginManager& plugins();
+
+    /// Brings in the plugins beside the project file; warns where they are left out because nobody trusted them yet.
+    void useProjectPlugins(const std::filesystem::path& project);
 
     void error(const Error& error);
     void warning(const std::string& message, const Location& where = {});

@@ -14,11 +14,6 @@ namespace {
 
 constexpr int kIndexVersion = 1;
 
-std::string dependencyText(const Dependency& need)
-{
-    return need.id + (need.minimum == Version{} ? "" : " " + need.minimum.text());
-}
-
 Json jsonOf(const IndexEntry& entry)
 {
     Json json{{"id", entry.id},
@@ -33,7 +28,7 @@ Json jsonOf(const IndexEntry& entry)
               {"file", entry.file},
               {"size", entry.size},
               {"sha256", entry.sha256}};
-    for (const Dependency& need : entry.needs) json["requires"].push_back(dependencyText(need));
+    for (const Dependency& need : entry.needs) json["requires"].push_back(need.text());
     return json;
 }
 
@@ -115,7 +110,10 @@ private:
     {
         const std::size_t space = text.find(' ');
         Dependency need{text.substr(0, space), {}};
-        if (space != std::string::npos) need.minimum = version(text.substr(space + 1), "requires");
+        if (space == std::string::npos) return need;
+        const auto range = VersionRange::parse(std::string_view(text).substr(space + 1));
+        if (!range) fail("requires", range.error().message);
+        need.range = *range;
         return need;
     }
 

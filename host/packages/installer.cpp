@@ -151,7 +151,7 @@ Result<void> Installer::checkDependencies(const Staged& staged) const
 {
     std::string missing;
     for (const Dependency& need : staged.manifest.requires_) {
-        const auto admits = [&](const Version& version) { return need.minimum == Version{} || need.admits(version); };
+        const auto admits = [&](const Version& version) { return need.admits(version); };
         const auto together = std::find_if(staged_.begin(), staged_.end(),
                                            [&](const Staged& other) { return other.manifest.id == need.id; });
         const InstalledPlugin* there = installed(need.id);
@@ -165,8 +165,7 @@ Result<void> Installer::checkDependencies(const Staged& staged) const
             problem = "version " + there->version.text() + " is installed and does not do";
         }
         if (problem.empty()) continue;
-        missing += (missing.empty() ? "" : "; ") + need.id +
-                   (need.minimum == Version{} ? "" : " " + need.minimum.text()) + " " + problem;
+        missing += (missing.empty() ? "" : "; ") + need.text() + " " + problem;
     }
     if (missing.empty()) return {};
     return at(staged.package,

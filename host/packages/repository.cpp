@@ -122,7 +122,7 @@ public:
             std::find_if(chosen_.begin(), chosen_.end(), [&](const IndexEntry* e) { return e->id == id; });
         if (chosen != chosen_.end()) {
             if (admits(need, (*chosen)->version)) return {};
-            return Error("no versions fit together: " + chain(id) + " requires " + id + " " + need->minimum.text() +
+            return Error("no versions fit together: " + chain(id) + " requires " + need->text() +
                          ", but another one takes " + (*chosen)->version.text());
         }
         const auto entry = newest(id, need);
@@ -140,10 +140,7 @@ public:
     std::vector<const IndexEntry*> chosen() && { return std::move(chosen_); }
 
 private:
-    static bool admits(const Dependency* need, const Version& version)
-    {
-        return !need || need->minimum == Version{} || need->admits(version);
-    }
+    static bool admits(const Dependency* need, const Version& version) { return !need || need->admits(version); }
     std::string chain(const std::string& last) const
     {
         std::string text;
@@ -163,8 +160,7 @@ private:
         for (const IndexEntry& entry : repository_.index_.entries) {
             if (entry.id != id) continue;
             if (!admits(need, entry.version)) {
-                why = "the repository has version " + entry.version.text() + " and not " + need->minimum.text() +
-                      " or a later " + std::to_string(need->minimum.major) + ".x";
+                why = "the repository has version " + entry.version.text() + " and not " + need->range.inWords();
                 continue;
             }
             const auto fits = entry.fits();

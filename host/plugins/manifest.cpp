@@ -1,39 +1,89 @@
 #include "manifest.hpp"
 
+#include "json_places.hpp"
+#include "suggest.hpp"
+
 #include <jet/format.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <set>
 
 namespace jet::host {
 
 using Json = nlohmann::json;
 
-std::string Version::text() const
-{
-    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
-}
-
-Result<Version> Version::parse(std::string_view text)
-{
-    Version version;
-    int* const parts[] = {&version.major, &version.minor, &version.patch};
-    const char* at = text.data();
-    const char* const end = text.data() + text.size();
-    for (int* part : parts) {
-        const auto [next, problem] = std::from_chars(at, end, *part);
-        if (problem != std::errc() || *part < 0) break;
-        if (next == end) return version;
-        if (*next != '.') break;
-        at = next + 1;
-    }
-    return Error("'" + std::string(text) + "' is not a version; write it as 1.2.3");
-}
-
 namespace {
+
+const std::vector<std::string> kFields = {"$schema",   "id",          "name",     "version",  "jet",
+                                          "library",   "author",      "homepage", "requires", "optional",
+                                          "conflicts", "description", "license",  "builtFor", "contributes"};
+
+/// Fields of a contribution besides id, label and order.
+std::vector<std::string> fieldsOf(ContributionKind kind)
+{
+    std::vector<std::string> fields = {"id", "label", "order"};
+    const auto add = [&](std::initializer_list<const char*> more) {
+        fields.insert(fields.end(), more.begin(), more.end());
+    };
+    switch (kind) {
+    case ContributionKind::Tool: add({"icon", "shortcut"}); break;
+    case ContributionKind::Panel: add({"icon", "area"}); break;
+    case ContributionKind::Command: add({"icon", "shortcut", "menu"}); break;
+    case ContributionKind::Importer:
+    case ContributionKind::Exporter: add({"extensions", "mimeTypes"}); break;
+    case ContributionKind::Effect:
+    case ContributionKind::ItemType:
+    case ContributionKind::SettingsPage: add({"icon"}); break;
+    default: break;
+    }
+    return fields;
+}
+
+bool isLowerWord(std::string_view text, std::string_view more)
+{
+    return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || more.find(c) != std::string_view::npos;
+    });
+}
+
+/// Parts of lower-case letters, digits, '-' and '_', at least two, with dots between.
+bool isPluginId(std::string_view id)
+{
+    int parts = 0;
+    for (;; ++parts) {
+        const std::size_t dot = std::min(id.find('.'), id.size());
+        if (!isLowerWord(id.substr(0, dot), "-_")) return false;
+        if (dot == id.size()) return parts > 0;
+        id.remove_prefix(dot + 1);
+    }
+}
+
+bool isMimeType(const std::string& text)
+{
+    const std::size_t slash = text.find('/');
+    return slash != std::string::npos && isLowerWord(text.substr(0, slash), "+-._") &&
+           isLowerWord(text.substr(slash + 1), "+-._");
+}
+
+/// "/contributes/tools/0/label" as people write it: contributes.tools[0].label
+std::string fieldName(std::string_view pointer)
+{
+    std::string name;
+    while (!pointer.empty()) {
+        pointer.remove_prefix(1);
+        const std::size_t slash = std::min(pointer.find('/'), pointer.size());
+        const std::string part(pointer.substr(0, slash));
+        const bool index = isLowerWord(part, "") && part.find_first_not_of("0123456789") == std::string::npos;
+        name += index ? "[" + part + "]" : (name.empty() ? "" : ".") + part;
+        pointer.remove_prefix(slash);
+    }
+    return name;
+}
 
 class ManifestReader {
 public:
@@ -43,25 +93,26 @@ public:
     {
         const Json json = parse();
         if (!json.is_object()) fail("", "a manifest is a JSON object: { \"id\": ..., ... }");
-        Manifest manifest;
-        manifest.id = string(json, "id");
-        checkId(manifest.id);
-        manifest.name = string(json, "name");
-        manifest.library = string(json, "library");
-        if (manifest.library.find('/') != std::string::npos)
-            fail("library", "names a file in the plugin's own folder, without '/'");
-        manifest.version = version(json, "version");
-        manifest.jet = version(json, "jet");
-        manifest.description = optionalString(json, "description");
-        manifest.license = optionalString(json, "license");
-        if (json.contains("builtFor")) {
-            manifest.sdk = string(json["builtFor"], "sdk");
-            manifest.abi = string(json["builtFor"], "abi");
-        }
-        manifest.requires_ = dependencies(json, "requires");
-        manifest.optional = dependencies(json, "optional");
-        if (json.contains("contributes")) readContributions(json["contributes"], manifest);
-        return manifest;
+        manifest_.id = string(json, "", "id");
+        checkId("/id", manifest_.id);
+        manifest_.name = string(json, "", "name");
+        manifest_.library = string(json, "", "library");
+        if (manifest_.library.find('/') != std::string::npos)
+            fail("/library", "names a file in the plugin's own folder, without '/'");
+        manifest_.version = version(json, "", "version");
+        manifest_.jet = version(json, "", "jet");
+        manifest_.description = optionalString(json, "", "description");
+        manifest_.license = optionalString(json, "", "license");
+        manifest_.author = optionalString(json, "", "author");
+        manifest_.homepage = optionalString(json, "", "homepage");
+        optionalString(json, "", "$schema");
+        readBuild(json);
+        manifest_.requires_ = dependencies(json, "requires");
+        manifest_.optional = dependencies(json, "optional");
+        manifest_.conflicts = dependencies(json, "conflicts");
+        if (json.contains("contributes")) readContributions(json["contributes"]);
+        warnOfUnknown(json, "", kFields);
+        return std::move(manifest_);
     }
 
 private:
@@ -72,137 +123,190 @@ private:
         } catch (const Json::parse_error& e) {
             std::string what = e.what();
             if (const auto colon = what.find("syntax error"); colon != std::string::npos) what = what.substr(colon);
-            throw Failure(Error("this manifest is not valid JSON: " + what, at(e.byte > 0 ? e.byte - 1 : 0)));
+            throw Failure(Error("this manifest is not valid JSON: " + what,
+                                JsonPlaces::at(text_, e.byte > 0 ? e.byte - 1 : 0, file_)));
         }
     }
 
-    Location at(std::size_t offset) const
+    // --- messages
+
+    Error problem(const std::string& pointer, const std::string& what)
     {
-        offset = std::min(offset, text_.size());
-        const auto begin = text_.begin();
-        const auto here = begin + static_cast<std::ptrdiff_t>(offset);
-        const std::size_t lineStart = text_.rfind('\n', offset == 0 ? 0 : offset - 1);
-        const bool first = lineStart == std::string::npos || offset == 0;
-        return {file_, static_cast<int>(std::count(begin, here, '\n')) + 1,
-                static_cast<int>(first ? offset + 1 : offset - lineStart)};
+        if (!places_) places_ = std::make_unique<JsonPlaces>(text_, file_);
+        const std::string field = fieldName(pointer);
+        return Error((field.empty() ? "" : "\"" + field + "\": ") + what, places_->of(pointer));
+    }
+    [[noreturn]] void fail(const std::string& pointer, const std::string& what)
+    {
+        throw Failure(problem(pointer, what));
+    }
+    void warn(const std::string& pointer, const std::string& what)
+    {
+        manifest_.warnings.push_back(problem(pointer, what));
+    }
+    void warnOfUnknown(const Json& object, const std::string& pointer, const std::vector<std::string>& known)
+    {
+        for (const auto& [key, value] : object.items())
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                warn(pointer + "/" + key, "this field is not known here and means nothing" + didYouMean(key, known));
     }
 
-    [[noreturn]] void fail(const std::string& field, const std::string& problem) const
-    {
-        const std::size_t found = field.empty() ? 0 : text_.find('"' + field + '"');
-        const Location where = found == std::string::npos ? Location{file_, 1, 1} : at(found);
-        throw Failure(Error((field.empty() ? "" : "\"" + field + "\": ") + problem, where));
-    }
+    // --- values
 
-    std::string string(const Json& json, const char* field) const
+    std::string string(const Json& json, const std::string& pointer, const char* field)
     {
-        if (!json.contains(field)) fail(field, std::string("this field is missing; add it to the manifest"));
+        if (!json.contains(field)) fail(pointer + "/" + field, "this field is missing; add it to the manifest");
         if (!json[field].is_string() || json[field].get_ref<const std::string&>().empty())
-            fail(field, "must be a text that is not empty");
+            fail(pointer + "/" + field, "must be a text that is not empty");
         return json[field];
     }
 
-    std::string optionalString(const Json& json, const char* field) const
+    std::string optionalString(const Json& json, const std::string& pointer, const char* field)
     {
         if (!json.contains(field)) return {};
-        if (!json[field].is_string()) fail(field, "must be a text");
+        if (!json[field].is_string()) fail(pointer + "/" + field, "must be a text");
         return json[field];
     }
 
-    Version version(const Json& json, const char* field) const
+    Version version(const Json& json, const std::string& pointer, const char* field)
     {
-        const auto parsed = Version::parse(string(json, field));
-        if (!parsed) fail(field, parsed.error().message);
+        const auto parsed = Version::parse(string(json, pointer, field));
+        if (!parsed) fail(pointer + "/" + field, parsed.error().message);
         return *parsed;
     }
 
-    void checkId(const std::string& id) const
+    std::vector<std::string> strings(const Json& list, const std::string& pointer, const std::string& expected)
     {
-        const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_';
-        });
-        if (!plain || id.find('.') == std::string::npos || id.front() == '.' || id.back() == '.')
-            fail("id",
+        if (!list.is_array()) fail(pointer, "must be " + expected);
+        std::vector<std::string> texts;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (!list[i].is_string()) fail(pointer + "/" + std::to_string(i), "must be a text: " + expected);
+            texts.push_back(list[i]);
+        }
+        return texts;
+    }
+
+    void checkId(const std::string& pointer, const std::string& id)
+    {
+        if (!isPluginId(id))
+            fail(pointer,
                  "'" + id +
                      "' is not an id; write it as org.example.name: lower-case letters, digits, '-', '_' and dots");
     }
 
-    std::vector<Dependency> dependencies(const Json& json, const char* field) const
+    void readBuild(const Json& json)
+    {
+        if (!json.contains("builtFor")) return;
+        const Json& built = json["builtFor"];
+        if (!built.is_object()) fail("/builtFor", "must be an object with \"sdk\" and \"abi\", as the build writes it");
+        manifest_.sdk = version(built, "/builtFor", "sdk").text();
+        manifest_.abi = string(built, "/builtFor", "abi");
+        warnOfUnknown(built, "/builtFor", {"sdk", "abi"});
+    }
+
+    std::vector<Dependency> dependencies(const Json& json, const std::string& field)
     {
         std::vector<Dependency> list;
         if (!json.contains(field)) return list;
-        if (!json[field].is_array()) fail(field, "must be a list of plugin ids");
-        for (const Json& entry : json[field]) {
-            if (!entry.is_string())
-                fail(field, "must be a list of plugin ids, each a text like \"org.example.name 1.2\"");
-            const std::string text = entry;
-            const std::size_t space = text.find(' ');
-            Dependency dependency{text.substr(0, space), {}};
-            if (space != std::string::npos) {
-                const auto minimum = Version::parse(text.substr(space + 1));
-                if (!minimum) fail(field, minimum.error().message);
-                dependency.minimum = *minimum;
+        const std::string pointer = "/" + field;
+        const auto texts =
+            strings(json[field], pointer, "a list of plugin ids, each a text like \"org.example.name >=1.2 <3\"");
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            const std::string here = pointer + "/" + std::to_string(i);
+            const std::size_t space = std::min(texts[i].find(' '), texts[i].size());
+            Dependency dependency{texts[i].substr(0, space), {}};
+            checkId(here, dependency.id);
+            if (space < texts[i].size()) {
+                const auto range = VersionRange::parse(std::string_view(texts[i]).substr(space + 1));
+                if (!range) fail(here, range.error().message);
+                dependency.range = *range;
             }
             list.push_back(std::move(dependency));
         }
         return list;
     }
 
-    void readContributions(const Json& json, Manifest& manifest) const
+    // --- contributions
+
+    void readContributions(const Json& json)
     {
-        if (!json.is_object()) fail("contributes", "must be an object of lists, e.g. { \"tools\": [...] }");
+        if (!json.is_object()) fail("/contributes", "must be an object of lists, e.g. { \"tools\": [...] }");
+        std::vector<std::string> kinds;
+        for (int k = 0; k < kContributionKinds; ++k) kinds.emplace_back(manifestKey(static_cast<ContributionKind>(k)));
         for (const auto& [key, list] : json.items()) {
-            const auto kind = kindOf(key);
-            if (!list.is_array()) fail(key, "must be a list");
+            const std::string pointer = "/contributes/" + key;
+            const auto known = std::find(kinds.begin(), kinds.end(), key);
+            if (known == kinds.end()) {
+                warn(pointer, "this JET knows no such kind of contribution" + didYouMean(key, kinds));
+                continue;
+            }
+            const auto kind = static_cast<ContributionKind>(known - kinds.begin());
+            if (!list.is_array()) fail(pointer, "must be a list");
             std::set<std::string> ids;
-            for (const Json& entry : list) {
-                Contribution one = readContribution(entry, kind, key);
-                one.plugin = manifest.id;
-                if (!ids.insert(one.id).second) fail(key, "declares '" + one.id + "' twice");
-                manifest.contributions.push_back(std::move(one));
+            for (std::size_t i = 0; i < list.size(); ++i) {
+                const std::string here = pointer + "/" + std::to_string(i);
+                Contribution one = readContribution(list[i], kind, here);
+                if (!ids.insert(one.id).second) fail(here + "/id", "declares '" + one.id + "' twice");
+                manifest_.contributions.push_back(std::move(one));
             }
         }
     }
 
-    ContributionKind kindOf(const std::string& key) const
+    Contribution readContribution(const Json& entry, ContributionKind kind, const std::string& pointer)
     {
-        for (int k = 0; k < kContributionKinds; ++k)
-            if (manifestKey(static_cast<ContributionKind>(k)) == key) return static_cast<ContributionKind>(k);
-        std::string known;
-        for (int k = 0; k < kContributionKinds; ++k)
-            known += (k ? ", " : "") + std::string(manifestKey(static_cast<ContributionKind>(k)));
-        fail(key, "is not a kind of contribution; known are " + known);
-    }
-
-    Contribution readContribution(const Json& entry, ContributionKind kind, const std::string& key) const
-    {
-        if (!entry.is_object()) fail(key, "each entry must be an object with \"id\" and \"label\"");
+        if (!entry.is_object()) fail(pointer, "each entry must be an object with \"id\" and \"label\"");
         Contribution one;
         one.kind = kind;
-        one.id = string(entry, "id");
-        one.label = string(entry, "label");
-        one.icon = optionalString(entry, "icon");
-        one.shortcut = optionalString(entry, "shortcut");
-        one.menu = optionalString(entry, "menu");
-        one.area = optionalString(entry, "area");
-        if (entry.contains("order")) {
-            if (!entry["order"].is_number_integer()) fail("order", "must be a whole number");
-            one.order = entry["order"];
-        }
-        const bool isFormat = kind == ContributionKind::Importer || kind == ContributionKind::Exporter;
-        if (isFormat) {
-            if (!entry.contains("extensions") || !entry["extensions"].is_array() || entry["extensions"].empty())
-                fail(key, "a format needs \"extensions\": [\"svg\", ...]");
-            for (const Json& extension : entry["extensions"]) {
-                if (!extension.is_string()) fail("extensions", "must be a list of texts");
-                one.extensions.push_back(extension);
-            }
-        }
+        one.plugin = manifest_.id;
+        one.id = string(entry, pointer, "id");
+        one.label = string(entry, pointer, "label");
+        one.icon = optionalString(entry, pointer, "icon");
+        if (entry.contains("icon") &&
+            (one.icon.empty() || one.icon.front() == '/' || one.icon.find("..") != std::string::npos))
+            fail(pointer + "/icon", "must name an SVG file in the plugin's own folder");
+        one.shortcut = optionalString(entry, pointer, "shortcut");
+        one.menu = optionalString(entry, pointer, "menu");
+        one.area = optionalString(entry, pointer, "area");
+        if (entry.contains("area") && one.area != "left" && one.area != "right" && one.area != "bottom")
+            fail(pointer + "/area", "must be \"left\", \"right\" or \"bottom\"");
+        if (entry.contains("order")) one.order = order(entry["order"], pointer + "/order");
+        if (kind == ContributionKind::Importer || kind == ContributionKind::Exporter) readFormat(entry, pointer, one);
+        warnOfUnknown(entry, pointer, fieldsOf(kind));
         return one;
+    }
+
+    int order(const Json& json, const std::string& pointer)
+    {
+        const double value = json.is_number() ? json.get<double>() : 0.5;
+        if (std::floor(value) != value || std::abs(value) > 1e6)
+            fail(pointer, "must be a whole number within a million");
+        return static_cast<int>(value);
+    }
+
+    void readFormat(const Json& entry, const std::string& pointer, Contribution& one)
+    {
+        const std::string here = pointer + "/extensions";
+        if (!entry.contains("extensions") || entry["extensions"] == Json::array())
+            fail(here, "a format needs \"extensions\": [\"svg\", ...]");
+        one.extensions = strings(entry["extensions"], here, "a list of file extensions, e.g. [\"svg\"]");
+        for (std::size_t i = 0; i < one.extensions.size(); ++i)
+            if (!isLowerWord(one.extensions[i], "+-_"))
+                fail(here + "/" + std::to_string(i),
+                     "'" + one.extensions[i] +
+                         "' is not an extension; write it in lower case and without the dot, like svg");
+        if (!entry.contains("mimeTypes")) return;
+        const std::string mime = pointer + "/mimeTypes";
+        one.mimeTypes = strings(entry["mimeTypes"], mime, "a list of MIME types, e.g. [\"image/svg+xml\"]");
+        for (std::size_t i = 0; i < one.mimeTypes.size(); ++i)
+            if (!isMimeType(one.mimeTypes[i]))
+                fail(mime + "/" + std::to_string(i),
+                     "'" + one.mimeTypes[i] + "' is not a MIME type; write it in lower case like image/svg+xml");
     }
 
     const std::string& text_;
     std::string file_;
+    std::unique_ptr<JsonPlaces> places_;
+    Manifest manifest_;
 };
 
 }  // namespace

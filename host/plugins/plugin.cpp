@@ -2,6 +2,12 @@
 
 namespace jet::host {
 
+std::string_view originName(PluginOrigin origin)
+{
+    static constexpr std::string_view names[] = {"path", "project", "user", "built-in"};
+    return names[static_cast<int>(origin)];
+}
+
 std::string Plugin::title() const { return manifest.name + " (" + manifest.id + " " + manifest.version.text() + ")"; }
 
 std::vector<CallbackCost> callbackCosts(const Plugin& plugin)

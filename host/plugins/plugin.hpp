@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace jet::host {
 
@@ -36,11 +37,22 @@ struct Registrations {
 
 class PluginLibrary;
 
+/// Where a plugin was found. Of equal versions the one of the first kind is used.
+enum class PluginOrigin { Path, Project, User, BuiltIn };
+/// "path", "project", "user", "built-in".
+std::string_view originName(PluginOrigin origin);
+
 struct Plugin {
     std::filesystem::path folder;
     Manifest manifest;
     std::atomic<PluginState> state{PluginState::Found};
-    std::string reason;  ///< why it is Disabled, Shadowed or Faulted
+    std::string reason;                ///< why it is Disabled, Shadowed or Faulted
+    std::vector<std::string> remarks;  ///< about what it can do without, e.g. an optional plugin of another version
+    PluginOrigin origin = PluginOrigin::Path;
+    bool broken = false;   ///< its manifest cannot be read: Faulted for good
+    bool unmet = false;    ///< Disabled or Faulted by the resolver, which may decide otherwise another time
+    bool leftOut = false;  ///< Disabled by the plugin set, not by the user
+    bool loading = false;
     std::unique_ptr<PluginLibrary> library;
     Registrations registrations;
     std::filesystem::path mapped;  ///< the file its library was loaded from

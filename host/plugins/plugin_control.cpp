@@ -10,11 +10,6 @@ namespace jet::host {
 
 namespace {
 
-std::string textOf(const Dependency& need)
-{
-    return need.minimum == Version{} ? need.id : need.id + " " + need.minimum.text();
-}
-
 PluginInfo describe(const Plugin& plugin)
 {
     const Manifest& manifest = plugin.manifest;
@@ -27,9 +22,15 @@ PluginInfo describe(const Plugin& plugin)
     info.folder = plugin.folder;
     info.state = plugin.state;
     info.reason = plugin.reason;
-    for (const Dependency& need : manifest.requires_) info.requires_.push_back(textOf(need));
-    for (const Dependency& need : manifest.optional) info.optional.push_back(textOf(need));
+    for (const Dependency& need : manifest.requires_) info.requires_.push_back(need.text());
+    for (const Dependency& need : manifest.optional) info.optional.push_back(need.text());
+    for (const Dependency& enemy : manifest.conflicts) info.conflicts.push_back(enemy.text());
+    info.origin = originName(plugin.origin);
+    for (const Error& warning : manifest.warnings) info.warnings.push_back(warning.text());
+    info.warnings.insert(info.warnings.end(), plugin.remarks.begin(), plugin.remarks.end());
     info.contributions = manifest.contributions;
+    for (Contribution& one : info.contributions)
+        if (!one.icon.empty()) one.icon = (plugin.folder / one.icon).string();
     info.loadMs = plugin.loadMs;
     info.callbacks = callbackCosts(plugin);
     info.calls = plugin.calls;
@@ -55,7 +56,8 @@ std::uint64_t mappedBytes(const std::filesystem::path& file)
     return bytes;
 }
 
-PluginControl::PluginControl(PluginManager& manager, EventsCenter& events) : manager_(manager), events_(events)
+PluginControl::PluginControl(PluginManager& manager, EventsCenter& events, PackageActions packages)
+    : manager_(manager), events_(events), packages_(std::move(packages))
 {
     manager_.settingsStore().onChanged = [this](const SettingsChanged& change) { events_.post(this, change); };
 }
@@ -110,28 +112,72 @@ Result<PluginChange> PluginControl::setEnabled(std::string_view id, bool enabled
 {
     const Plugin* plugin = manager_.plugin(id);
     if (!plugin) return Error("there is no plugin '" + std::string(id) + "'; 'jet plugins list' shows all");
-    PluginChange change;
-    change.plugins = enabled ? requirements(id) : dependents(id);
-    change.plugins.insert(change.plugins.begin(), std::string(id));
+    std::set<std::string> ids{std::string(id)};
+    if (enabled)
+        for (std::string& need : requirements(id)) ids.insert(std::move(need));
     auto disabled = readDisabledPlugins();
-    for (const std::string& one : change.plugins) {
+    for (const std::string& one : ids) {
         if (enabled)
             disabled.erase(one);
         else
             disabled.insert(one);
     }
     if (const auto written = writeDisabledPlugins(disabled); !written) return written.error();
-    change.afterRestart = true;
-    change.message = plugin->title() + " is switched " + (enabled ? "on" : "off") + " from the next start on.";
-    events_.post(this, PluginsChanged{change.plugins});
+    PluginChange change;
+    change.plugins = manager_.setEnabled(ids, enabled);
+    const std::string name = plugin->manifest.name;
+    if (enabled && !plugin->usable()) {
+        // What failed while it ran needs a fresh start; anything else is told by its reason.
+        change.afterRestart = plugin->state == PluginState::Faulted && !plugin->unmet && !plugin->broken;
+        change.message = name +
+                         (change.afterRestart ? " failed in this run and is used again after a restart: "
+                                              : " is switched on, but cannot be used: ") +
+                         plugin->reason + ".";
+    } else {
+        change.message = name + " is switched " + (enabled ? "on." : "off.");
+    }
+    tell(change.plugins);
     return change;
 }
 
-Provider PluginControl::whoProvides(ContributionKind kind, std::string_view id) const
+Result<PluginChange> PluginControl::install(const std::filesystem::path& file)
 {
-    Provider provider;
-    provider.sentence = manager_.explain(kind, id);
-    return provider;
+    if (!packages_.install) return PluginsCenter::install(file);
+    const auto installed = packages_.install(file);
+    if (!installed) return installed.error();
+    PluginChange change;
+    for (const PackageActions::Installed& one : *installed) {
+        const Plugin* before = manager_.plugin(one.id);
+        const bool inUse = before && before->library && before->folder == one.folder;
+        if (!inUse) {
+            manager_.removeFolder(one.folder);  // an older copy that was in the same place
+            manager_.addFolder(one.folder, PluginOrigin::User);
+        }
+        change.afterRestart = change.afterRestart || inUse;
+        change.plugins.push_back(one.id);
+        change.message += (change.message.empty() ? "" : " ") + one.message +
+                          (inUse ? " The version that is in use stays until JET is started again." : "");
+    }
+    tell(change.plugins);
+    return change;
+}
+
+Result<PluginChange> PluginControl::remove(std::string_view id)
+{
+    if (!packages_.remove) return PluginsCenter::remove(id);
+    const Plugin* plugin = manager_.plugin(id);
+    if (!plugin) return Error("there is no plugin '" + std::string(id) + "'; 'jet plugins list' shows all");
+    if (plugin->origin != PluginOrigin::User)
+        return Error(plugin->title() + " is not one of the user's plugins, but lies in " + plugin->folder.string() +
+                     "; switch it off instead");
+    PluginChange change;
+    change.message = plugin->manifest.name + " is removed; its settings are kept.";
+    const auto folder = packages_.remove(std::string(id));
+    if (!folder) return folder.error();
+    change.plugins = manager_.removeFolder(*folder);
+    change.plugins.emplace_back(id);
+    tell(change.plugins);
+    return change;
 }
 
 }  // namespace jet::host

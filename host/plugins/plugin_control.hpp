@@ -6,12 +6,26 @@
 #include <jet/events.hpp>
 #include <jet/plugins.hpp>
 
+#include <functional>
+
 namespace jet::host {
+
+/// How packages are installed and removed; empty: not at all.
+struct PackageActions {
+    struct Installed {
+        std::string id;
+        std::filesystem::path folder;
+        std::string message;
+    };
+    std::function<Result<std::vector<Installed>>(const std::filesystem::path& file)> install;
+    /// Answers the folder that was removed.
+    std::function<Result<std::filesystem::path>(const std::string& id)> remove;
+};
 
 class PluginControl final : public PluginsCenter {
 public:
     /// Both outlive it.
-    PluginControl(PluginManager& manager, EventsCenter& events);
+    PluginControl(PluginManager& manager, EventsCenter& events, PackageActions packages = {});
     ~PluginControl() override;
 
     std::vector<PluginInfo> plugins() const override;
@@ -19,12 +33,20 @@ public:
     std::vector<std::string> dependents(std::string_view id) const override;
     std::vector<std::string> requirements(std::string_view id) const override;
     Result<PluginChange> setEnabled(std::string_view id, bool enabled) override;
+    Result<PluginChange> install(const std::filesystem::path& file) override;
+    Result<PluginChange> remove(std::string_view id) override;
     std::shared_ptr<Settings> settings(std::string_view page) override { return manager_.settings(page); }
-    Provider whoProvides(ContributionKind kind, std::string_view id) const override;
+    Provider whoProvides(ContributionKind kind, std::string_view id) const override
+    {
+        return manager_.whoProvides(kind, id);
+    }
 
 private:
+    void tell(const std::vector<std::string>& ids) { events_.post(this, PluginsChanged{ids}); }
+
     PluginManager& manager_;
     EventsCenter& events_;
+    PackageActions packages_;
 };
 
 /// Bytes of this process that are mapped from the file. 0 where it is not mapped.

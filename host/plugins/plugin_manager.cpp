@@ -34,50 +34,74 @@ PluginManager::~PluginManager() = default;
 void PluginManager::scan()
 {
     for (const fs::path& folder : options_.searchPath) {
-        const bool foreign = !options_.builtIn.empty() && folder != options_.builtIn;
-        if (!(options_.safeMode && foreign)) readFolder(folder);
+        const PluginOrigin origin = originOf(folder);
+        if (!options_.safeMode || options_.builtIn.empty() || origin == PluginOrigin::BuiltIn)
+            readFolder(folder, origin);
     }
     resolve();
-    buildIndex();
 }
 
-void PluginManager::readFolder(const fs::path& folder)
+PluginOrigin PluginManager::originOf(const fs::path& folder) const
+{
+    if (folder == options_.builtIn) return PluginOrigin::BuiltIn;
+    return folder == userPluginFolder() ? PluginOrigin::User : PluginOrigin::Path;
+}
+
+std::vector<std::string> PluginManager::addFolder(const fs::path& folder, PluginOrigin origin)
+{
+    auto ids = readFolder(folder, origin);
+    resolve();
+    return ids;
+}
+
+std::vector<std::string> PluginManager::readFolder(const fs::path& folder, PluginOrigin origin)
 {
     std::error_code problem;
     std::vector<fs::path> candidates;
-    for (const auto& entry : fs::directory_iterator(folder, problem)) candidates.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder, problem))
+        if (entry.is_directory(problem)) candidates.push_back(entry.path());
     if (fs::exists(folder / "plugin.json", problem))
         candidates.push_back(folder);  // --plugin-path may name one plugin itself
     std::sort(candidates.begin(), candidates.end());
+    std::vector<std::string> ids;
     for (const fs::path& candidate : candidates) {
         const fs::path file = candidate / "plugin.json";
-        if (!fs::exists(file, problem)) continue;
+        if (!fs::exists(file, problem) || !folders_.insert(candidate.native()).second) continue;
         auto plugin = std::make_unique<Plugin>();
         plugin->folder = candidate;
+        plugin->origin = origin;
         if (auto manifest = Manifest::read(file)) {
             plugin->manifest = std::move(*manifest);
             plugin->state = PluginState::Valid;
         } else {
             plugin->manifest.id = candidate.filename().string();
             plugin->manifest.name = plugin->manifest.id;
+            plugin->broken = true;
             plugin->state = PluginState::Faulted;
             plugin->reason = manifest.error().text();
         }
-        if (!options_.without.contains(plugin->manifest.id)) adopt(std::move(plugin));
+        if (options_.without.contains(plugin->manifest.id)) continue;
+        ids.push_back(plugin->manifest.id);
+        adopt(std::move(plugin));
     }
+    return ids;
 }
 
 void PluginManager::adopt(std::unique_ptr<Plugin> plugin)
 {
     auto& place = plugins_[plugin->manifest.id];
-    const auto rank = [](const Plugin& p) { return std::pair(p.state != PluginState::Faulted, p.manifest.version); };
+    const auto wanted = options_.wanted.find(plugin->manifest.id);
+    const auto rank = [&](const Plugin& p) {
+        const bool fits = wanted == options_.wanted.end() || wanted->second.admits(p.manifest.version);
+        return std::tuple(!p.broken, fits, p.manifest.version, -static_cast<int>(p.origin));
+    };
     if (place && rank(*plugin) > rank(*place)) std::swap(place, plugin);
     if (!place) {
         place = std::move(plugin);
         return;
     }
     // A broken manifest stays worth telling, even where another copy of the plugin works.
-    if (plugin->state != PluginState::Faulted) {
+    if (!plugin->broken) {
         plugin->state = PluginState::Shadowed;
         plugin->reason =
             "version " + place->manifest.version.text() + " in " + place->folder.string() + " is used instead";
@@ -85,75 +109,101 @@ void PluginManager::adopt(std::unique_ptr<Plugin> plugin)
     shadowed_.push_back(std::move(plugin));
 }
 
-void PluginManager::resolve()
+std::vector<std::string> PluginManager::resolve()
 {
-    for (auto& [id, plugin] : plugins_) {
-        if (plugin->state != PluginState::Valid) continue;
-        if (options_.disabled.contains(id)) {
-            plugin->state = PluginState::Disabled;
-            plugin->reason = "switched off; 'jet plugins enable " + id + "' switches it on";
-        } else if (options_.only && !options_.only->contains(id)) {
-            plugin->state = PluginState::Disabled;
-            plugin->reason = "not in the chosen plugin set";
-        } else if (const auto built = checkBuild(plugin->manifest); !built) {
-            plugin->state = PluginState::Faulted;
-            plugin->reason = built.error().message;
-        }
-    }
-    for (auto& [id, plugin] : plugins_) {
-        std::vector<const Plugin*> chain;
-        resolve(*plugin, chain);
-    }
+    std::set<std::string> before, after;
+    const auto note = [this](std::set<std::string>& usable) {
+        for (const auto& [id, plugin] : plugins_)
+            if (plugin->usable()) usable.insert(id);
+    };
+    note(before);
+    resolvePlugins(plugins_, {options_.disabled, options_.only, options_.setName});
+    note(after);
+    buildIndex();
+    std::vector<std::string> changed;
+    std::set_symmetric_difference(before.begin(), before.end(), after.begin(), after.end(),
+                                  std::back_inserter(changed));
+    return changed;
 }
 
-void PluginManager::resolve(Plugin& plugin, std::vector<const Plugin*>& chain)
+std::vector<std::string> PluginManager::removeFolder(const fs::path& folder)
 {
-    if (plugin.state != PluginState::Valid) return;
-    const auto fault = [&](std::string reason) {
-        plugin.state = PluginState::Faulted;
-        plugin.reason = std::move(reason);
+    folders_.erase(folder.native());
+    std::vector<std::unique_ptr<Plugin>> copies;
+    const auto take = [&](std::unique_ptr<Plugin>& plugin) {
+        if (plugin->folder != folder) return false;
+        plugin->state = PluginState::Disabled;
+        plugin->reason = "it was removed";
+        removed_.push_back(std::move(plugin));  // its objects may still be in use
+        return true;
     };
-    const auto path = [&](const std::string& last) {
-        std::string text;
-        for (const Plugin* link : chain) text += link->manifest.id + " → ";
-        return text + last;
-    };
-    chain.push_back(&plugin);
-    for (const Dependency& need : plugin.manifest.requires_) {
-        const auto found = plugins_.find(need.id);
-        const auto inChain =
-            std::find_if(chain.begin(), chain.end(), [&](const Plugin* p) { return p->manifest.id == need.id; });
-        if (inChain != chain.end()) {
-            fault("it depends on itself: " + path(need.id) + "; remove one of these requirements");
-        } else if (found == plugins_.end()) {
-            fault("it requires " + need.id + " (" + path(need.id) + "), which is not installed; install it");
-        } else if (need.minimum != Version{} && !need.admits(found->second->manifest.version)) {
-            fault("it requires " + need.id + " " + need.minimum.text() + " or a later " +
-                  std::to_string(need.minimum.major) + ".x, version " + found->second->manifest.version.text() +
-                  " is installed; install a matching one");
-        } else {
-            resolve(*found->second, chain);
-            if (plugin.state == PluginState::Valid && !found->second->usable())
-                fault("it requires " + need.id + ", which is " + std::string(stateName(found->second->state)) + " (" +
-                      found->second->reason + ")");
+    std::erase_if(shadowed_, take);
+    for (auto entry = plugins_.begin(); entry != plugins_.end();) {
+        const std::string id = entry->first;
+        if (!take(entry->second)) {
+            ++entry;
+            continue;
         }
-        if (plugin.state != PluginState::Valid) break;
+        entry = plugins_.erase(entry);
+        std::erase_if(shadowed_, [&](std::unique_ptr<Plugin>& copy) {
+            if (copy->manifest.id != id) return false;
+            copies.push_back(std::move(copy));
+            return true;
+        });
     }
-    chain.pop_back();
-    if (plugin.state == PluginState::Valid) plugin.state = PluginState::Resolved;
+    for (auto& copy : copies) {
+        if (copy->state == PluginState::Shadowed) copy->state = PluginState::Valid;
+        adopt(std::move(copy));
+    }
+    return resolve();
+}
+
+std::vector<std::string> PluginManager::setEnabled(const std::set<std::string>& ids, bool enabled)
+{
+    for (const std::string& id : ids) {
+        if (!enabled) {
+            options_.disabled.insert(id);
+            continue;
+        }
+        options_.disabled.erase(id);
+        if (options_.only) options_.only->insert(id);
+    }
+    return resolve();
+}
+
+template <class T>
+void PluginManager::retire(Table<T>& table, ContributionKind kind)
+{
+    std::erase_if(table, [&](auto& entry) {
+        auto& [id, shared] = entry;
+        if (shared.object && shared.plugin == providerOf(kind, id)) return false;
+        if (shared.object) retired_.push_back(shared.object);
+        return true;
+    });
 }
 
 void PluginManager::buildIndex()
 {
+    index_.clear();
+    formats_.clear();
+    const auto add = [this](Plugin& plugin) {
+        for (const Contribution& one : plugin.manifest.contributions) {
+            index_.emplace(Key{one.kind, one.id}, &plugin);
+            for (const std::string& extension : one.extensions) formats_.emplace(Key{one.kind, extension}, one.id);
+        }
+    };
     // Usable plugins first, so that an unusable one answers only for what nobody else offers.
     for (const bool usable : {true, false})
-        for (auto& [id, plugin] : plugins_) {
-            if (plugin->usable() != usable) continue;
-            for (const Contribution& one : plugin->manifest.contributions) {
-                index_.emplace(Key{one.kind, one.id}, plugin.get());
-                for (const std::string& extension : one.extensions) formats_.emplace(Key{one.kind, extension}, one.id);
-            }
-        }
+        for (auto& [id, plugin] : plugins_)
+            if (plugin->usable() == usable) add(*plugin);
+    for (auto& plugin : shadowed_) add(*plugin);
+    retire(effects_, ContributionKind::Effect);
+    retire(itemTypes_, ContributionKind::ItemType);
+    retire(importers_, ContributionKind::Importer);
+    retire(exporters_, ContributionKind::Exporter);
+    retire(physicsEngines_, ContributionKind::PhysicsEngine);
+    retire(scriptEngines_, ContributionKind::ScriptEngine);
+    retire(commands_, ContributionKind::Command);
 }
 
 std::vector<const Plugin*> PluginManager::plugins() const
@@ -192,14 +242,25 @@ Result<void> PluginManager::load(std::string_view id)
 
 void PluginManager::loadOrFault(Plugin& plugin)
 {
-    if (plugin.state != PluginState::Resolved) return;
+    if (plugin.state != PluginState::Resolved || plugin.loading) return;
+    plugin.loading = true;  // an optional plugin may want this one, too
+    loadRequirementsFirst(plugin);
+    plugin.loading = false;
+}
+
+void PluginManager::loadRequirementsFirst(Plugin& plugin)
+{
     for (const Dependency& need : plugin.manifest.requires_) {
         Plugin& other = *plugins_.find(need.id)->second;
         loadOrFault(other);
         if (other.usable()) continue;
-        plugin.state = PluginState::Faulted;
         plugin.reason = "it requires " + need.id + ", which failed: " + other.reason;
+        plugin.state = PluginState::Faulted;
         return;
+    }
+    for (const Dependency& wish : plugin.manifest.optional) {
+        const auto found = plugins_.find(wish.id);
+        if (found != plugins_.end() && wish.admits(found->second->manifest.version)) loadOrFault(*found->second);
     }
     const auto before = std::chrono::steady_clock::now();
     Registrations registrations;
@@ -210,8 +271,8 @@ void PluginManager::loadOrFault(Plugin& plugin)
     Result<void> fine = opened ? checkRegistrations(plugin.manifest, registrations) : Result<void>(opened.error());
     plugin.loadMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
     if (!fine) {
-        plugin.state = PluginState::Faulted;
         plugin.reason = fine.error().message;
+        plugin.state = PluginState::Faulted;
         if (guard_.onProblem)
             guard_.onProblem({plugin.manifest.id, "load",
                               "the plugin " + plugin.title() + " cannot be used: " + plugin.reason, plugin.reason});
@@ -352,32 +413,6 @@ std::unique_ptr<Panel> PluginManager::createPanel(std::string_view id, Editor& e
     auto panel = guard_.call(
         *plugin, "factory", [&] { return factory->second(editor); }, std::unique_ptr<Panel>());
     return panel ? guarded(guard_, *plugin, std::move(panel), editor) : nullptr;
-}
-
-std::string PluginManager::explain(ContributionKind kind, std::string_view id) const
-{
-    const bool format = kind == ContributionKind::Importer || kind == ContributionKind::Exporter;
-    std::string name = format ? findFormat(kind, id) : std::string(id);
-    // Any engine would do: tell of one that is there and does not work.
-    if (name.empty() && !format)
-        for (const auto& [key, plugin] : index_)
-            if (key.first == kind && (name.empty() || plugin->usable())) name = key.second;
-    std::string what = std::string(kindName(kind)) + " '" + std::string(id) + "'";
-    if (format) what = std::string(kindName(kind)) + " for ." + std::string(id) + " files";
-    if (id.empty()) what = std::string(kindName(kind));
-    const Plugin* plugin = name.empty() ? nullptr : providerOf(kind, name);
-    if (!plugin)
-        return "No installed plugin provides " + std::string(id.empty() ? "a " : "the ") + what +
-               "; install one that does, or look at 'jet plugins list'.";
-    if (plugin->usable()) return "The " + what + " comes from " + plugin->title() + ".";
-    return "The " + what + " needs " + plugin->title() + ", which is " + std::string(stateName(plugin->state)) + ": " +
-           plugin->reason + ".";
-}
-
-std::string PluginManager::provider(ContributionKind kind, std::string_view id) const
-{
-    const Plugin* plugin = providerOf(kind, id);
-    return plugin ? plugin->manifest.id + " " + plugin->manifest.version.text() : std::string();
 }
 
 }  // namespace jet::host

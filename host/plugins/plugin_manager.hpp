@@ -4,7 +4,11 @@
 
 #include "guarded.hpp"
 #include "plugin.hpp"
+#include "plugin_resolver.hpp"
 #include "settings_store.hpp"
+
+#include <jet/plugins.hpp>
+#include <jet/project.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -21,6 +25,8 @@ struct PluginOptions {
     std::set<std::string> without;                  ///< as if these were not installed
     std::set<std::string> disabled;                 ///< installed, switched off by the user
     std::optional<std::set<std::string>> only;      ///< a plugin set; none: all
+    std::string setName;                            ///< of that set, for messages
+    std::map<std::string, VersionRange> wanted;     ///< of several copies, one that fits is used
     bool safeMode = false;                          ///< only what ships with the program
     std::filesystem::path builtIn;                  ///< the folder of what ships
     std::filesystem::path settings;                 ///< the folder of plugins' settings; empty: kept in memory
@@ -40,7 +46,16 @@ public:
     /// reasons.
     void scan();
 
-    /// By id.
+    /// Adds the plugins of a folder to those that are there, e.g. a project's; answers their ids.
+    std::vector<std::string> addFolder(const std::filesystem::path& folder, PluginOrigin origin);
+    /// Forgets the plugin of that folder; another copy of it takes its place. Answers as setEnabled() does.
+    std::vector<std::string> removeFolder(const std::filesystem::path& folder);
+    /// Switches plugins and, when on, lets them into the plugin set; takes effect at once. Answers the ids of all
+    /// plugins that became usable or unusable by it. Storing the choice is the caller's business.
+    std::vector<std::string> setEnabled(const std::set<std::string>& ids, bool enabled);
+    const PluginOptions& options() const { return options_; }
+
+    /// By id; shadowed copies follow.
     std::vector<const Plugin*> plugins() const;
     const Plugin* plugin(std::string_view id) const;
     /// Loads the plugin and what it requires, in order. The error says what failed and what to do.
@@ -66,6 +81,11 @@ public:
     Command* command(std::string_view id) override;
     std::string explain(ContributionKind kind, std::string_view id) const override;
     std::string provider(ContributionKind kind, std::string_view id) const override;
+    void recall(const PluginUse& use) override;
+    /// Which known plugin provides it, usable or not, and how to get it. For formats `id` is an extension.
+    Provider whoProvides(ContributionKind kind, std::string_view id) const;
+    /// All ids that usable or unusable plugins declare of the kind; of formats the extensions.
+    std::vector<std::string> knownIds(ContributionKind kind) const;
 
 private:
     using Key = std::pair<ContributionKind, std::string>;
@@ -78,11 +98,15 @@ private:
     template <class T>
     using Table = std::map<std::string, Shared<T>, std::less<>>;
 
-    void readFolder(const std::filesystem::path& folder);
+    std::vector<std::string> readFolder(const std::filesystem::path& folder, PluginOrigin origin);
     void adopt(std::unique_ptr<Plugin> plugin);
-    void resolve();
-    void resolve(Plugin& plugin, std::vector<const Plugin*>& chain);
+    PluginOrigin originOf(const std::filesystem::path& folder) const;
+    /// Decides states and providers anew. Answers the ids of the plugins whose usability changed.
+    std::vector<std::string> resolve();
     void buildIndex();
+    /// Objects of plugins that provide their contribution no more are kept, but not handed out again.
+    template <class T>
+    void retire(Table<T>& table, ContributionKind kind);
     /// Of the kind, the first that works; an engine that fails makes room for the next.
     template <class Get>
     auto firstWorking(ContributionKind kind, Get&& get) -> decltype(get(std::string()));
@@ -90,14 +114,19 @@ private:
     std::string findFormat(ContributionKind kind, std::string_view extension) const;
     Plugin* ready(ContributionKind kind, std::string_view id);
     void loadOrFault(Plugin& plugin);
+    void loadRequirementsFirst(Plugin& plugin);
     template <class T, class Map>
     T* shared(Table<T>& table, ContributionKind kind, std::string_view id, Map Registrations::*factories);
 
     PluginOptions options_;
     SettingsStore settingsStore_;
     Guard guard_;
-    std::map<std::string, std::unique_ptr<Plugin>, std::less<>> plugins_;
+    PluginTable plugins_;
     std::vector<std::unique_ptr<Plugin>> shadowed_;
+    std::set<std::string> folders_;  // of all plugins: a folder that is added again changes nothing
+    std::vector<std::unique_ptr<Plugin>> removed_;
+    std::vector<std::shared_ptr<void>> retired_;
+    std::map<Key, PluginUse> recorded_;  // what projects say of plugins
     std::map<Key, Plugin*> index_;
     std::map<Key, std::string> formats_;  // (kind, extension) -> contribution id
     Table<Effect> effects_;

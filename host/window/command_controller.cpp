@@ -13,11 +13,14 @@ CommandController::CommandController(Editor& editor, Documents& documents, QObje
 
 void CommandController::build(QMenuBar& bar)
 {
+    qDeleteAll(commands_.keys());  // of plugins as they were before
+    commands_.clear();
     for (const Contribution& command : editor_.catalog().contributions(ContributionKind::Command)) {
         const QString path = command.menu.empty() ? tr("Tools") : QString::fromStdString(command.menu);
         QMenu* menu = Actions::menuAt(bar, path);
         QAction* action = menu->addAction(QCoreApplication::translate("Commands", command.label.c_str()));
         if (!command.icon.empty()) action->setIcon(QIcon(QString::fromStdString(command.icon)));
+        action->setObjectName(QStringLiteral("command:") + QString::fromStdString(command.id));
         action->setShortcut(QKeySequence::fromString(QString::fromStdString(command.shortcut)));
         connect(action, &QAction::triggered, this, [this, id = command.id] { run(id); });
         connect(menu, &QMenu::aboutToShow, action, [this, menu] { refresh(*menu); });
@@ -26,6 +29,9 @@ void CommandController::build(QMenuBar& bar)
             menu, &QMenu::aboutToHide, action, [action] { action->setEnabled(true); }, Qt::QueuedConnection);
         commands_.insert(action, command.id);
     }
+    // A menu goes with its last command.
+    for (QAction* menu : bar.actions())
+        if (menu->menu()) menu->setVisible(!menu->menu()->isEmpty());
 }
 
 void CommandController::run(const std::string& id)

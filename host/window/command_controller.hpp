@@ -15,7 +15,8 @@ class CommandController final : public QObject {
 public:
     CommandController(Editor& editor, Documents& documents, QObject* parent);
 
-    /// Adds every declared command to the menu its manifest names ("Tools" without one).
+    /// Adds every declared command to the menu its manifest names ("Tools" without one). Called again when plugins were
+    /// switched.
     void build(QMenuBar& bar);
     /// Runs a command as its menu entry does: gestures are ended and typing is committed first.
     void run(const std::string& id);

@@ -7,6 +7,8 @@
 #include <QMenu>
 #include <QSettings>
 
+#include <algorithm>
+
 namespace jet::host {
 
 namespace {
@@ -34,19 +36,60 @@ DockArea::~DockArea()
 
 void DockArea::createDocks()
 {
-    for (Contribution& panel : editor_.catalog().contributions(ContributionKind::Panel)) {
-        auto* widget = new QDockWidget(QString::fromStdString(panel.label), &window_);
-        widget->setObjectName(dockName(panel));
-        docks_.push_back(std::make_unique<Dock>(Dock{std::move(panel), widget, nullptr}));
-        connect(widget, &QDockWidget::visibilityChanged, this,
-                [this, dock = docks_.back().get()](bool visible) { fillWhenSeen(*dock, visible); });
-    }
+    for (Contribution& panel : editor_.catalog().contributions(ContributionKind::Panel)) createDock(std::move(panel));
     placeDefault();
+}
+
+DockArea::Dock& DockArea::createDock(Contribution panel)
+{
+    auto* widget = new QDockWidget(QString::fromStdString(panel.label), &window_);
+    widget->setObjectName(dockName(panel));
+    docks_.push_back(std::make_unique<Dock>(Dock{std::move(panel), widget, nullptr}));
+    Dock& dock = *docks_.back();
+    connect(widget, &QDockWidget::visibilityChanged, this,
+            [this, &dock](bool visible) { fillWhenSeen(dock, visible); });
+    return dock;
+}
+
+void DockArea::empty(Dock& dock)
+{
+    delete dock.widget->widget();
+    dock.content.reset();  // after its widget
+    dock.failed = false;
+}
+
+void DockArea::rebuild()
+{
+    std::vector<Contribution> panels = editor_.catalog().contributions(ContributionKind::Panel);
+    const auto isOf = [](const Contribution& panel) {
+        return [&panel](const auto& dock) { return dock->panel.id == panel.id; };
+    };
+    for (const auto& dock : docks_) {
+        const bool there =
+            std::any_of(panels.begin(), panels.end(), [&](const auto& panel) { return panel.id == dock->panel.id; });
+        if (there || dock->gone) continue;
+        dock->gone = true;
+        dock->wasShown = !dock->widget->isHidden();
+        dock->widget->hide();
+        empty(*dock);
+    }
+    for (Contribution& panel : panels) {
+        const auto known = std::find_if(docks_.begin(), docks_.end(), isOf(panel));
+        if (known == docks_.end()) {
+            Dock& dock = createDock(std::move(panel));
+            window_.addDockWidget(areaOf(dock.panel), dock.widget);
+        } else if ((*known)->gone || (*known)->failed) {
+            (*known)->gone = false;
+            empty(**known);
+            if ((*known)->wasShown) (*known)->widget->show();
+            fillWhenSeen(**known, (*known)->widget->isVisible());
+        }
+    }
 }
 
 void DockArea::fillWhenSeen(Dock& dock, bool visible)
 {
-    if (!visible || dock.content || dock.failed) return;
+    if (!visible || dock.content || dock.failed || dock.gone) return;
     dock.content = editor_.catalog().createPanel(dock.panel.id, editor_);
     QWidget* widget = dock.content ? dock.content->createWidget() : nullptr;
     if (!widget) {
@@ -132,7 +175,8 @@ void DockArea::resetLayout()
 
 void DockArea::fillMenu(QMenu& menu) const
 {
-    for (const auto& dock : docks_) menu.addAction(dock->widget->toggleViewAction());
+    for (const auto& dock : docks_)
+        if (!dock->gone) menu.addAction(dock->widget->toggleViewAction());
 }
 
 void DockArea::setMaximized(bool on)
@@ -145,7 +189,7 @@ void DockArea::setMaximized(bool on)
         return;
     }
     for (const auto& dock : docks_) {
-        if (dock->widget->isHidden() || dock->widget->isFloating()) continue;
+        if (dock->gone || dock->widget->isHidden() || dock->widget->isFloating()) continue;
         hiddenByMaximize_ << dock->widget;
         dock->widget->hide();
     }

@@ -33,6 +33,8 @@ public:
 
     /// A dock for each declared panel, in its default place.
     void createDocks();
+    /// The same again after plugins were switched: panels that are gone are hidden and emptied, new ones are added.
+    void rebuild();
     void restoreLayout(QSettings& settings);
     void saveLayout(QSettings& settings);
     /// Back to how a first start looks.
@@ -49,8 +51,12 @@ private:
         QDockWidget* widget;
         std::unique_ptr<Panel> content;
         bool failed = false;
+        bool gone = false;      // its plugin is switched off
+        bool wasShown = false;  // before it went
     };
 
+    Dock& createDock(Contribution panel);
+    void empty(Dock& dock);
     void fillWhenSeen(Dock& dock, bool visible);
     void placeDefault();
     void createStandIns(const QStringList& names);

@@ -22,6 +22,9 @@ struct WindowLaunch {
     /// Sentences about plugins that are faulted or were refused; may be empty.
     std::function<std::vector<std::string>()> pluginProblems;
     jet::PluginsCenter* plugins = nullptr;  ///< null: there are none to manage
+    /// Brings in the plugins beside a project; `ask` is asked whether to trust them. Returns what the user should know.
+    std::function<std::string(const std::filesystem::path& project, const std::function<bool(const std::string&)>& ask)>
+        useProjectPlugins = {};
 };
 
 }  // namespace jet::host

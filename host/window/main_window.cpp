@@ -24,7 +24,7 @@ constexpr MenuSpec kMenus[] = {
      "file.new file.open @recent | file.save file.save-as | file.import file.export | view.close file.quit"},
     {QT_TRANSLATE_NOOP("Actions", "&Edit"),
      "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.paste-in-place edit.duplicate "
-     "edit.delete | edit.select-all edit.group edit.ungroup"},
+     "edit.delete | edit.select-all edit.group edit.ungroup | edit.settings"},
     {QT_TRANSLATE_NOOP("Actions", "&Scene"), "scene.new @scenes | @effects"},
     {QT_TRANSLATE_NOOP("Actions", "&View"),
      "view.zoom-in view.zoom-out view.zoom-reset view.frame | view.grid | @panels view.maximize view.reset-layout"},
@@ -49,10 +49,12 @@ MainWindow::MainWindow(const WindowLaunch& launch)
       simulation_(launch.events), messages_(new MessageBar(nullptr)),
       documents_(new Documents(*this, toolOptions_, nullptr)),
       actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
-      projects_(*this, *documents_, this), formats_(*this, *documents_, this), edits_(*this, *documents_, this),
-      commands_(*this, *documents_, this), player_(*this, *documents_, this),
-      tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this), views_(*documents_, docks_, this)
+      projects_(*this, *documents_, this), pluginController_(*this, projects_, *messages_, this),
+      formats_(*this, *documents_, this), edits_(*this, *documents_, this), commands_(*this, *documents_, this),
+      player_(*this, *documents_, this), tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this),
+      views_(*documents_, docks_, this)
 {
+    pluginController_.setUseProjectPlugins(launch.useProjectPlugins);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
@@ -94,6 +96,7 @@ void MainWindow::createActions()
         openScene(scene);
     };
     actions_.add(projects_.actions());
+    actions_.add(pluginController_.actions());
     actions_.add(formats_.actions());
     actions_.add(edits_.actions());
     actions_.add(player_.actions());
@@ -120,6 +123,15 @@ void MainWindow::createMenus()
 {
     actions_.buildMenuBar(*menuBar(), kMenus);
     commands_.build(*menuBar());
+}
+
+void MainWindow::followPlugins()
+{
+    tools_.rebuild();
+    commands_.build(*menuBar());
+    docks_.rebuild();
+    for (SceneView* view : documents_->views()) view->invalidate();
+    actions_.refreshSoon();
 }
 
 void MainWindow::createToolBars()
@@ -156,6 +168,7 @@ void MainWindow::connectDocuments()
     connect(documents_, &Documents::frontChanged, this, &MainWindow::frontChanged);
     connect(documents_, &Documents::viewOpened, this, [this](SceneView* view) { prepareView(*view); });
     connect(&projects_, &ProjectController::saved, this, &MainWindow::updateTitle);
+    connect(&pluginController_, &PluginController::changed, this, &MainWindow::followPlugins);
 }
 
 void MainWindow::prepareView(SceneView& view)
@@ -254,19 +267,6 @@ void MainWindow::openScript(Scene& scene, ItemId script, int line)
 
 void MainWindow::print(OutputLine line) { events_.post(static_cast<Editor*>(this), OutputPrinted{std::move(line)}); }
 void MainWindow::showMessage(std::string text) { messages_->add(QString::fromStdString(text)); }
-
-void MainWindow::showMissing(ContributionKind kind, std::string_view id)
-{
-    const Provider provider = plugins_.whoProvides(kind, id);
-    MessageBar::Actions actions;
-    if (provider.canEnable()) {
-        actions.push_back({tr("Enable"), [this, plugin = provider.plugin] {
-                               const Result<PluginChange> change = plugins_.setEnabled(plugin, true);
-                               showMessage(change ? change->message : change.error().text());
-                           }});
-    }
-    messages_->add(QString::fromStdString(provider.sentence), std::move(actions));
-}
 
 Progress MainWindow::progress(const std::string& label)
 {

@@ -11,6 +11,7 @@
 #include "window/launch.hpp"
 #include "window/message_bar.hpp"
 #include "window/play_controller.hpp"
+#include "window/plugin_controller.hpp"
 #include "window/project_controller.hpp"
 #include "window/tool_controller.hpp"
 #include "window/view_controller.hpp"
@@ -40,6 +41,7 @@ public:
     Documents& documents() { return *documents_; }
     Actions& actionTable() { return actions_; }
     MessageBar& messages() { return *messages_; }
+    PluginController& pluginController() { return pluginController_; }
     /// The layout and choices of the last run.
     void restoreSettings();
     void saveSettings();
@@ -64,7 +66,7 @@ public:
     ItemId activeLayer() const override;
     void setActiveLayer(ItemId layer) override;
     PluginsCenter& plugins() override { return plugins_; }
-    void showMissing(ContributionKind kind, std::string_view id) override;
+    void showMissing(ContributionKind kind, std::string_view id) override { pluginController_.showMissing(kind, id); }
     Progress progress(const std::string& label) override;
 
 protected:
@@ -74,6 +76,8 @@ private:
     QWidget* createCentral();
     void createActions();
     void createMenus();
+    /// Bars, menus, docks and views after plugins were switched.
+    void followPlugins();
     void createToolBars();
     void createStatusBar();
     void connectDocuments();
@@ -101,6 +105,7 @@ private:
     Documents* documents_;
     Actions actions_;
     ProjectController projects_;
+    PluginController pluginController_;
     FormatController formats_;
     EditController edits_;
     CommandController commands_;

@@ -55,6 +55,7 @@ void ProjectController::create()
 
 bool ProjectController::open(const std::filesystem::path& path)
 {
+    if (beforeOpen_) beforeOpen_(path);
     Result<std::unique_ptr<Project>> loaded = Project::load(path, editor_.events(), editor_.catalog());
     if (!loaded) {
         editor_.showMessage(loaded.error().text());
@@ -65,7 +66,8 @@ bool ProjectController::open(const std::filesystem::path& path)
     for (const FormatNote& note : project_->notes()) {
         editor_.print({OutputLine::Kind::Warning, Error(note.message, note.where).text(), {}, 0});
     }
-    if (!project_->notes().empty()) editor_.showMessage(project_->notes().front().message);
+    const bool told = tellMissing_ && tellMissing_();
+    if (!told && !project_->notes().empty()) editor_.showMessage(project_->notes().front().message);
     return true;
 }
 

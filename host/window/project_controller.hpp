@@ -40,6 +40,10 @@ public:
     void saveRecent(QSettings& settings) const;
     /// Replaces the question box, for tests.
     void setQuestion(std::function<Answer()> question) { question_ = std::move(question); }
+    /// Called with the path before a project is read.
+    void setBeforeOpen(std::function<void(const std::filesystem::path&)> before) { beforeOpen_ = std::move(before); }
+    /// Tells which plugins the opened project misses; false when it misses none.
+    void setTellMissing(std::function<bool()> tell) { tellMissing_ = std::move(tell); }
 
 signals:
     void saved();
@@ -60,6 +64,8 @@ private:
     std::unique_ptr<Project> project_;
     QStringList recent_;
     std::function<Answer()> question_;
+    std::function<void(const std::filesystem::path&)> beforeOpen_;
+    std::function<bool()> tellMissing_;
 };
 
 }  // namespace jet::host

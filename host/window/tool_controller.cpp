@@ -35,8 +35,22 @@ ToolController::ToolController(Editor& editor, Documents& documents, ToolOptions
     if (!tools_.empty()) active_ = tools_.front().id;
 }
 
+void ToolController::rebuild()
+{
+    if (!bar_) return;
+    for (QAction* button : buttons_.actions()) delete button;  // leaves the bar and the group
+    tools_ = editor_.catalog().contributions(ContributionKind::Tool);
+    const bool known =
+        std::any_of(tools_.begin(), tools_.end(), [this](const auto& tool) { return tool.id == active_; });
+    if (!known) active_ = tools_.empty() ? std::string() : tools_.front().id;
+    buildToolBar(*bar_);
+    applyToFront();
+    if (!known) editor_.events().post(&editor_, ActiveToolChanged{active_});
+}
+
 void ToolController::buildToolBar(QToolBar& bar)
 {
+    bar_ = &bar;
     for (const Contribution& tool : tools_) {
         QAction* button = buttons_.addAction(iconFor(tool), QString::fromStdString(tool.label));
         button->setObjectName(QStringLiteral("tool:") + QString::fromStdString(tool.id));

@@ -20,6 +20,8 @@ public:
 
     /// Fills the bar with a button a tool, as the manifests declare them; nothing is loaded.
     void buildToolBar(QToolBar& bar);
+    /// The same again after plugins were switched.
+    void rebuild();
     /// Shows the active tool's options here.
     void setOptionsBar(QToolBar& bar);
 
@@ -43,6 +45,7 @@ private:
     Documents& documents_;
     ToolOptions& options_;
     QActionGroup buttons_;
+    QToolBar* bar_ = nullptr;
     QToolBar* optionsBar_ = nullptr;
     std::vector<Contribution> tools_;
     std::string active_;

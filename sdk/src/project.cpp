@@ -117,6 +117,7 @@ std::vector<PluginUse> Project::pluginsUsed() const
         if (space == std::string::npos) return;
         PluginUse& use = uses[provider.substr(0, space)];
         use.id = provider.substr(0, space), use.version = provider.substr(space + 1);
+        if (isNew) use.provides.emplace_back(kind, type);
         ++use.count;
     };
     for (const Scene* scene : scenes()) {
@@ -133,7 +134,10 @@ std::vector<PluginUse> Project::pluginsUsed() const
         if (!allKnown && !uses.contains(recorded.id)) uses.emplace(recorded.id, recorded);
     std::vector<PluginUse> list;
     list.reserve(uses.size());
-    for (auto& [id, use] : uses) list.push_back(std::move(use));
+    for (auto& [id, use] : uses) {
+        std::ranges::sort(use.provides);
+        list.push_back(std::move(use));
+    }
     return list;
 }
 

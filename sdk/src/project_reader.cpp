@@ -4,6 +4,7 @@
 #include <jet/catalog.hpp>
 #include <jet/project.hpp>
 
+#include <algorithm>
 #include <set>
 
 namespace jet {
@@ -52,10 +53,28 @@ private:
                 source_.unexpected(child, "<plugins> holds <plugin>");
                 continue;
             }
-            project_.recordedUses_.push_back({std::string(source_.required(child, "id")),
-                                              std::string(source_.required(child, "version")),
-                                              child.attribute("uses").as_int()});
+            PluginUse use{std::string(source_.required(child, "id")), std::string(source_.required(child, "version")),
+                          child.attribute("uses").as_int()};
+            use.provides = readProvided(child.attribute("provides").value());
+            project_.catalog_.recall(use);
+            project_.recordedUses_.push_back(std::move(use));
         }
+    }
+
+    // "effects/hemp itemTypes/rope", by the keys of manifests; what is not understood is left out.
+    static std::vector<std::pair<ContributionKind, std::string>> readProvided(std::string_view text)
+    {
+        std::vector<std::pair<ContributionKind, std::string>> list;
+        while (!text.empty()) {
+            const std::string_view word = text.substr(0, text.find(' '));
+            text.remove_prefix(std::min(word.size() + 1, text.size()));
+            const std::size_t slash = word.find('/');
+            if (slash == std::string_view::npos) continue;
+            for (int k = 0; k < kContributionKinds; ++k)
+                if (const auto kind = static_cast<ContributionKind>(k); manifestKey(kind) == word.substr(0, slash))
+                    list.emplace_back(kind, word.substr(slash + 1));
+        }
+        return list;
     }
 
     void readFilter(const pugi::xml_node& node, Filter& filter, int depth)

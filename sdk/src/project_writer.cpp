@@ -135,7 +135,7 @@ private:
         if (uses.size() != recorded.size()) return true;
         for (std::size_t i = 0; i < uses.size(); ++i)
             if (uses[i].id != recorded[i].id || uses[i].version != recorded[i].version ||
-                uses[i].count != recorded[i].count)
+                uses[i].count != recorded[i].count || uses[i].provides != recorded[i].provides)
                 return true;
         return false;
     }
@@ -143,9 +143,14 @@ private:
     std::string text(std::string structure) const
     {
         std::string plugins;
-        for (const PluginUse& use : project_.pluginsUsed())
+        for (const PluginUse& use : project_.pluginsUsed()) {
+            std::string provides;
+            for (const auto& [kind, id] : use.provides)
+                provides += (provides.empty() ? "" : " ") + std::string(manifestKey(kind)) + "/" + id;
             plugins += "    <plugin" + xmlAttribute("id", use.id) + xmlAttribute("version", use.version) +
-                       xmlAttribute("uses", std::to_string(use.count)) + "/>\n";
+                       xmlAttribute("uses", std::to_string(use.count)) +
+                       (provides.empty() ? "" : xmlAttribute("provides", provides)) + "/>\n";
+        }
         if (!plugins.empty()) structure.insert(structure.find('\n') + 1, "  <plugins>\n" + plugins + "  </plugins>\n");
         return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + structure;
     }

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,13 +22,15 @@ namespace fs = std::filesystem;
 const std::string kJet = JET_BINARY_DIR "/bin/jet";
 const std::string kGame = JET_SOURCE_DIR "/examples/games/ball";
 
-/// A data folder with 200 installed manifests, so that only they are added to what ships.
-fs::path dataFolder()
+/// A data folder with that many installed manifests, so that only they are added to what ships.
+fs::path dataFolder(int count)
 {
-    static const fs::path one = [] {
+    static std::map<int, fs::path> made;
+    if (const auto known = made.find(count); known != made.end()) return known->second;
+    return made[count] = [count] {
         std::string name = (fs::temp_directory_path() / "jet-bench-XXXXXX").string();
         const fs::path folder = ::mkdtemp(name.data());
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < count; ++i) {
             const std::string id = "org.bench.p" + std::to_string(i);
             fs::create_directories(folder / "jet/plugins" / id);
             std::ofstream(folder / "jet/plugins" / id / "plugin.json")
@@ -41,7 +45,6 @@ fs::path dataFolder()
         }
         return folder;
     }();
-    return one;
 }
 
 /// Runs bin/jet silently; returns its exit code.
@@ -75,6 +78,25 @@ void pluginsList(benchmark::State& state)
 }
 BENCHMARK(pluginsList)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+/// CPU milliseconds of the fastest of several starts with that many manifests, so that other programs do not count.
+double startWith(int manifests)
+{
+    ::setenv("XDG_DATA_HOME", dataFolder(manifests).c_str(), 1);
+    double best = -1;
+    for (int i = 0; i < 15; ++i) {
+        rusage before{}, after{};
+        ::getrusage(RUSAGE_CHILDREN, &before);
+        if (jet({"plugins", "list"}) != 0) return -1;
+        ::getrusage(RUSAGE_CHILDREN, &after);
+        const auto ms = [](const timeval& time) {
+            return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_usec) / 1e3;
+        };
+        const double used = ms(after.ru_utime) + ms(after.ru_stime) - ms(before.ru_utime) - ms(before.ru_stime);
+        if (best < 0 || used < best) best = used;
+    }
+    return best;
+}
+
 void ballGame(benchmark::State& state)
 {
     if (!fs::exists(kGame)) return state.SkipWithError("there is no ball game");
@@ -102,8 +124,8 @@ double firstFrame()
 
 int main(int argc, char** argv)
 {
-    ::setenv("XDG_DATA_HOME", dataFolder().c_str(), 1);
-    ::setenv("XDG_CONFIG_HOME", dataFolder().c_str(), 1);
+    ::setenv("XDG_DATA_HOME", dataFolder(200).c_str(), 1);
+    ::setenv("XDG_CONFIG_HOME", dataFolder(200).c_str(), 1);
     const int code = jet::bench::run(argc, argv, [](const jet::bench::Times& times, jet::bench::Summary& summary) {
         const auto ms = [&](const char* name) { return times.contains(name) ? times.at(name) / 1e6 : 0.0; };
         const auto add = [&](const char* key, const char* name, double goal) {
@@ -115,12 +137,19 @@ int main(int argc, char** argv)
             const double pace = 3000.0 / 60 / (ms("ballGame") / 1000);
             summary.add("ball_game", pace, "x real time", 50, pace >= 50);
         }
+        const double few = startWith(10), many = startWith(500);
+        if (few >= 0 && many >= 0) {
+            summary.add("start_10_manifests", few, "ms CPU", 60, few < 60);
+            summary.add("start_500_manifests", many, "ms CPU", few + 20, many < few + 20);
+            summary.add("manifests_500_over_10", many - few, "ms CPU", 20, many - few < 20);
+        }
+        ::setenv("XDG_DATA_HOME", dataFolder(200).c_str(), 1);
         double best = -1;
         for (int i = 0; i < 3; ++i)
             if (const double frame = firstFrame(); frame >= 0 && (best < 0 || frame < best)) best = frame;
         if (best >= 0) summary.add("first_frame", best, "ms", 400, best < 400);
     });
     std::error_code ignored;
-    fs::remove_all(dataFolder(), ignored);
+    for (const int count : {10, 200, 500}) fs::remove_all(dataFolder(count), ignored);
     return code;
 }

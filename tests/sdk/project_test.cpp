@@ -214,7 +214,7 @@ TEST_F(ProjectTest, SavingUnderTheSameNameKeepsTheSceneFiles)
 TEST_F(ProjectTest, PluginsUsedAreRecordedAndKeptWhileTheyAreMissing)
 {
     make()->saveAs(folder).orThrow();
-    EXPECT_THAT(files()["project.jet"], HasSubstr("<plugin id=\"test\" version=\"0\" uses=\"1\"/>"));
+    EXPECT_THAT(files()["project.jet"], HasSubstr("<plugin id=\"test\" version=\"0\" uses=\"1\" provides=\""));
     test::TestCatalog none;
     auto bare = Project::load(folder, events, none).orThrow();
     EXPECT_FALSE(bare->notes().empty());

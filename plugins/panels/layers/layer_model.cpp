@@ -254,6 +254,14 @@ void LayerModel::rowChanged(ItemId item)
 
 // --- what is shown
 
+// An item whose plugin is absent says who that is.
+QString LayerModel::typeToolTip(const Item& item) const
+{
+    Catalog& catalog = scene_->catalog();
+    const bool known = builtInItemType(item.type()) || catalog.itemType(item.type());
+    return QString::fromStdString(known ? item.type() : catalog.explain(ContributionKind::ItemType, item.type()));
+}
+
 QVariant LayerModel::data(const QModelIndex& index, int role) const
 {
     const Item* item = itemOf(index);
@@ -265,7 +273,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     case Qt::DecorationRole:
         if (column == Name) return iconOf(*item);
         return toggleIcon(column, column == Visible ? item->visible() : item->locked());
-    case Qt::ToolTipRole: return column == Name ? QString::fromStdString(item->type()) : toolTipOf(column);
+    case Qt::ToolTipRole: return column == Name ? typeToolTip(*item) : toolTipOf(column);
     case Qt::ForegroundRole:
         return item->shown() && item->editable() ? QVariant()
                                                  : QApplication::palette().brush(QPalette::Disabled, QPalette::Text);

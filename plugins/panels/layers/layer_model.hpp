@@ -57,6 +57,7 @@ signals:
 private:
     struct Node;
 
+    QString typeToolTip(const Item& item) const;
     Node* nodeOf(const QModelIndex& index) const;
     QModelIndex indexOf(const Node& node, int column = Name) const;
     void populate(Node& node);

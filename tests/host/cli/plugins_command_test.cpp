@@ -117,6 +117,74 @@ TEST_F(PluginsCommandTest, ExplainTellsWhoProvidesWhat)
     EXPECT_THAT(run.err, HasSubstr("no installed plugin provides"));
 }
 
+TEST_F(PluginsCommandTest, ExplainMendsASlipAndKnowsWhatTheProjectRecorded)
+{
+    plugins().link("org.jet.test.good");
+    EXPECT_THAT(jet("plugins explain tnit").err, HasSubstr("called 'tnit'; did you mean 'tint'?"));
+    write("game/project.jet",
+          "<jet-project version=\"1\" name=\"Game\"><plugins><plugin id=\"org.acme.gone\" version=\"2.0.0\" uses=\"1\" "
+          "provides=\"effects/hemp itemTypes/knot\"/></plugins><filter name=\"F\"><scene name=\"One\" "
+          "file=\"one.scene\"/></filter></jet-project>");
+    write("game/one.scene",
+          "<scene version=\"1\"><item type=\"shape\" id=\"1\" name=\"Box\"><path>M 0 0 L 10 0 L 10 10 "
+          "Z</path><effect type=\"hemp\"/></item></scene>");
+    EXPECT_EQ(jet("plugins explain hemp").code, 1);
+    const Outcome run = jet("plugins explain hemp --project game");
+    EXPECT_EQ(run.code, 0);
+    EXPECT_THAT(run.out,
+                HasSubstr("The effect 'hemp' needs the plugin org.acme.gone 2.0.0, which the project was saved "
+                          "with and which is not installed"));
+    const auto answers = json(jet("--json plugins explain knot --project game").out);
+    EXPECT_EQ(answers[0]["availability"], "not installed");
+    EXPECT_EQ(answers[0]["plugin"], "org.acme.gone");
+    EXPECT_THAT(jet("project check game").err + jet("project check game").out, HasSubstr("org.acme.gone 2.0.0"));
+}
+
+// A project's own plugins are left out until they are trusted, and the project is read all the same.
+TEST_F(PluginsCommandTest, APluginBesideTheProjectWaitsForTrust)
+{
+    writeGame();
+    std::filesystem::create_directories(home() / "game/plugins");
+    std::filesystem::copy(fixtureFolder() / "org.jet.test.good", home() / "game/plugins/good",
+                          std::filesystem::copy_options::recursive);
+    const auto info = [this](const char* options) { return jet(std::string(options) + " project info game"); };
+    EXPECT_THAT(info("").err,
+                HasSubstr("warning: the project brings plugins of its own (good), which were left out: this "
+                          "project is not trusted yet; if you know where it comes from, run 'jet plugins "
+                          "trust "));
+    EXPECT_THAT(jet("plugins explain box-body --project game").err, HasSubstr("left out"));
+    EXPECT_EQ(jet("plugins trust game").code, 0);
+    EXPECT_EQ(info("").err, "");
+    EXPECT_THAT(jet("plugins explain box-body --project game").out, HasSubstr("comes from Good"));
+    write("game/plugins/good/plugin.json", read("game/plugins/good/plugin.json") + " ");
+    EXPECT_THAT(info("").err, HasSubstr("they changed since you trusted this project"));
+    EXPECT_EQ(info("--trust").err, "");
+    EXPECT_EQ(info("").err, "") << "--trust is remembered";
+    EXPECT_THAT(info("--safe-mode").err, HasSubstr("left out in safe mode"));
+    EXPECT_EQ(jet("plugins trust --revoke game").code, 0);
+    EXPECT_THAT(info("").err, HasSubstr("not trusted yet"));
+    EXPECT_THAT(jet("plugins trust .").err, HasSubstr("there are no plugins beside this project"));
+}
+
+TEST_F(PluginsCommandTest, DisablingNamesWhatRequiresItAndEnablingBringsItBack)
+{
+    plugins().add("org.acme.a");
+    plugins().add("org.acme.b", R"("requires": ["org.acme.a"])");
+    EXPECT_THAT(jet("plugins disable org.acme.a").err,
+                HasSubstr("org.acme.b requires org.acme.a and is switched off with it"));
+    EXPECT_THAT(jet("plugins list").out, testing::ContainsRegex("org.acme.b +1.0.0 +disabled +it requires org.acme.a"));
+    EXPECT_THAT(jet("plugins enable org.acme.b").out, HasSubstr("org.acme.a is usable again with it"));
+    EXPECT_THAT(jet("plugins list").out, testing::ContainsRegex("org.acme.b +1.0.0 +resolved"));
+}
+
+TEST_F(PluginsCommandTest, InfoWarnsOfWhatTheManifestDoesNotMean)
+{
+    plugins().add("org.acme.a", R"("requierd": [])");
+    EXPECT_THAT(
+        jet("plugins info org.acme.a").err,
+        HasSubstr("warning: \"requierd\": this field is not known here and means nothing; did you mean 'requires'?"));
+}
+
 TEST_F(PluginsCommandTest, SwitchingOffLastsUntilSwitchedOn)
 {
     plugins().link("org.jet.test.good");

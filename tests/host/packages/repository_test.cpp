@@ -36,7 +36,7 @@ protected:
         for (const std::string& need : needs) {
             const std::size_t space = need.find(' ');
             Dependency dependency{need.substr(0, space), {}};
-            if (space != std::string::npos) dependency.minimum = *Version::parse(need.substr(space + 1));
+            if (space != std::string::npos) dependency.range = *VersionRange::parse(need.substr(space + 1));
             entry.needs.push_back(dependency);
         }
         entry.file = id + "-" + version + ".jetplugin";

@@ -50,6 +50,7 @@ public:
     }
     /// A built fixture, under its own id.
     void link(const std::string& id) { std::filesystem::create_directory_symlink(fixtureFolder() / id, path_ / id); }
+    void remove(const std::string& name) { std::filesystem::remove_all(path_ / name); }
 
 private:
     std::filesystem::path path_;
