@@ -1,3 +1,5 @@
+#include "system_error.hpp"
+
 #include <jet/format.hpp>
 
 #include <cerrno>
@@ -10,8 +12,6 @@ namespace jet {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 Error systemError(const fs::path& file, const std::string& what, int code)
 {
     std::string remedy;
@@ -19,8 +19,11 @@ Error systemError(const fs::path& file, const std::string& what, int code)
     if (code == EROFS) remedy = "; the file system is read-only: choose another place";
     if (code == ENOSPC || code == EDQUOT || code == EFBIG) remedy = "; free some space or choose another place";
     if (code == ENOENT) remedy = "; check the name and that its folder exists";
+    if (code == ESTALE || code == EIO) remedy = "; the disk or the network folder fails: save to another place";
     return Error(what + ": " + std::strerror(code) + remedy, Location{file.string(), 0, 0});
 }
+
+namespace {
 
 class Descriptor {
 public:
@@ -62,6 +65,15 @@ Result<void> writeInto(const fs::path& file, std::span<const std::byte> content)
 }
 
 }  // namespace
+
+Result<void> syncFolder(const fs::path& folder)
+{
+    const Descriptor directory(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory.get() < 0 && (errno == EACCES || errno == EPERM)) return {};  // one may write to it but not read it
+    if (directory.get() < 0) return systemError(folder, "was written, but may not outlive a power cut", errno);
+    if (::fsync(directory.get()) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS) return {};
+    return systemError(folder, "was written, but may not outlive a power cut", errno);
+}
 
 std::string extensionOf(const fs::path& file)
 {
@@ -120,10 +132,7 @@ Result<void> writeFileAtomically(const fs::path& file, std::span<const std::byte
     if (exists) (void)!::fchmod(out.get(), mode);
     if (out.close() != 0) return giveUp(errno);
     if (::rename(temporary.c_str(), target.c_str()) != 0) return giveUp(errno);
-    const fs::path folder = target.parent_path().empty() ? fs::path(".") : target.parent_path();
-    const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (directory.get() >= 0) ::fsync(directory.get());  // the new name survives a power cut
-    return {};
+    return syncFolder(target.parent_path());  // the new name survives a power cut
 }
 
 Result<void> writeFileAtomically(const fs::path& file, std::string_view content)

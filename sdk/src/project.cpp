@@ -1,4 +1,5 @@
 #include "hasher.hpp"
+#include "project_files.hpp"
 #include "xml_text.hpp"
 
 #include <jet/catalog.hpp>
@@ -27,7 +28,10 @@ bool eraseScene(Filter& filter, const Scene& scene)
 
 }  // namespace
 
-Project::Project(EventsCenter& events, Catalog& catalog) : events_(events), catalog_(catalog) {}
+Project::Project(EventsCenter& events, Catalog& catalog)
+    : events_(events), catalog_(catalog), files_(std::make_unique<Files>())
+{
+}
 Project::~Project() = default;
 
 std::unique_ptr<Project> Project::create(std::string name, EventsCenter& events, Catalog& catalog)
@@ -60,6 +64,7 @@ Scene& Project::addScene(std::string name, Filter* filter)
 {
     auto& scenes = (filter ? *filter : root_).scenes;
     scenes.push_back(std::make_unique<Scene>(std::move(name), events_, catalog_));
+    if (files_->watcher) files_->watcher->sceneAdded(*scenes.back());
     return *scenes.back();
 }
 
@@ -69,6 +74,7 @@ void Project::removeScene(const Scene& scene)
         obsoleteFiles_.push_back(file->second);
         sceneFiles_.erase(file);
     }
+    files_->unsaved.erase(&scene);
     eraseScene(root_, scene);
 }
 
@@ -100,10 +106,32 @@ std::string Project::structure() const
 
 bool Project::isModified() const
 {
-    if (structure() != savedStructure_) return true;
+    if (files_->structureUnsaved || structure() != savedStructure_) return true;
     const auto all = scenes();
-    return std::any_of(all.begin(), all.end(), [](const Scene* scene) { return !scene->undoRedo().isClean(); });
+    return std::any_of(all.begin(), all.end(), [this](const Scene* scene) {
+        return files_->unsaved.contains(scene) || !scene->undoRedo().isClean();
+    });
 }
+
+std::filesystem::path Project::folder() const
+{
+    return files_->unpacked.empty() ? file_.parent_path() : files_->unpacked;
+}
+
+std::vector<std::filesystem::path> Project::changedOnDisk() const
+{
+    if (!files_->archive.empty())
+        return differsOnDisk(files_->archive, files_->archiveState) ? std::vector{files_->archive}
+                                                                    : std::vector<std::filesystem::path>();
+    std::vector<std::filesystem::path> changed;
+    for (const auto& [path, state] : files_->known)
+        if (differsOnDisk(folder() / path, state)) changed.push_back(folder() / path);
+    return changed;
+}
+
+const std::vector<std::string>& Project::saveNotes() const { return files_->notes; }
+void Project::setBackupCount(std::size_t count) { files_->backups = count; }
+std::vector<Backup> Project::backups() const { return file_.empty() ? std::vector<Backup>() : findBackups(file_); }
 
 std::vector<PluginUse> Project::pluginsUsed() const
 {

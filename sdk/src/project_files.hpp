@@ -1,8 +1,66 @@
-// Limits that project files share between reader and writer: what is saved can be opened.
+// What a project knows of its files: limits shared by reader and writer, what was read and written last, who watches.
 #pragma once
+
+#include <jet/project.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
 
 namespace jet {
 
 inline constexpr int kMaximumFilterDepth = 100;
+
+/// A file as it was read or written last.
+struct FileState {
+    std::uint64_t hash = 0;  ///< of the content
+    std::uint64_t size = 0;
+    std::int64_t modified = 0;  ///< nanoseconds since 1970
+};
+
+std::uint64_t contentHash(std::string_view content);
+/// Size and time of the file now, hash left 0; nothing when there is no such file.
+std::optional<FileState> statFile(const std::filesystem::path& file);
+/// Is the file on disk another one than `known`? Reads it only where its size is the same and its time is not.
+bool differsOnDisk(const std::filesystem::path& file, const FileState& known);
+
+/// A file that is about to be written; `path` is relative to the project's folder.
+struct FileToWrite {
+    std::string path;
+    const Scene* scene = nullptr;  ///< null for project.jet
+    std::string content;
+    std::uint64_t hash = 0;
+};
+
+/// Hears of what happens to a project besides the events of its scenes: its journal.
+class ProjectWatcher {
+public:
+    virtual ~ProjectWatcher() = default;
+    virtual void sceneAdded(Scene& scene) = 0;
+    /// Before the first byte is written. `elsewhere`: to another place than the project had.
+    virtual void aboutToSave(std::span<const FileToWrite> files, bool elsewhere) = 0;
+    /// All of it was written and synced.
+    virtual void saved() = 0;
+};
+
+struct Project::Files {
+    std::map<std::string, FileState> known;  ///< by path relative to the project's folder
+    std::set<const Scene*> unsaved;  ///< differ from their files although their history says nothing: recovered ones
+    bool structureUnsaved = false;   ///< the same of project.jet
+    ProjectWatcher* watcher = nullptr;
+    std::size_t backups = kDefaultBackups;
+    std::vector<std::string> notes;  ///< of the last save
+    std::filesystem::path archive;   ///< the .jetz file this project lives in; empty for a folder
+    FileState archiveState;          ///< of that file
+    std::filesystem::path unpacked;  ///< private folder with its content, removed with the project
+    ~Files();
+};
+
+/// Copies what the project's files are now into a new folder of .jet-backups, and removes the oldest beyond `count`.
+/// Files are paths relative to `folder`; those that do not exist are left out. Unchanged files share their space.
+Result<void> backUp(const std::filesystem::path& folder, const std::string& project, const std::set<std::string>& files,
+                    std::size_t count);
 
 }  // namespace jet

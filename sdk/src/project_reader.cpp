@@ -106,21 +106,31 @@ private:
                          "the scene file '" + relative + "' lies outside the project's folder; keep scenes inside it");
         if (!names_.insert(name).second) source_.fail(node, "there are two scenes called '" + name + "'; rename one");
         if (!files_.insert(inside).second) source_.fail(node, "two scenes share the file '" + relative + "'");
-        const fs::path file = project_.file_.parent_path() / inside;
+        const fs::path file = project_.folder() / inside;
         std::error_code ignored;
         if (!fs::exists(file, ignored))
             source_.fail(node, "the scene file '" + relative +
                                    "' is missing; restore it, or remove this line to go on without '" + name + "'");
-        auto text = readFile(file);
-        if (!text) throw Failure(text.error());
+        auto text = readKnown(file, relative);
         auto scene =
-            readSceneText(std::move(*text), file.string(), project_.events_, project_.catalog_, project_.notes_);
+            readSceneText(std::move(text), file.string(), project_.events_, project_.catalog_, project_.notes_);
         if (!scene) throw Failure(scene.error());
         (*scene)->setName(name);
         (*scene)->undoRedo().markClean();
         project_.sceneFiles_[scene->get()] = relative;
         filter.scenes.push_back(std::move(*scene));
         if (!progress_(0.0)) throw Failure(Error("opening the project was cancelled"));
+    }
+
+    // State before content: what changes in between is noticed at the next save.
+    std::string readKnown(const fs::path& file, const std::string& relative)
+    {
+        const auto state = statFile(file);
+        auto text = readFile(file).orThrow();
+        FileState known = state.value_or(FileState());
+        known.hash = contentHash(text);
+        project_.files_->known[relative] = known;
+        return text;
     }
 
     XmlSource& source_;
@@ -130,9 +140,7 @@ private:
     std::set<fs::path> files_;
 };
 
-namespace {
-
-Result<fs::path> projectFile(const fs::path& path)
+Result<fs::path> findProjectFile(const fs::path& path)
 {
     std::error_code ignored;
     if (!fs::is_directory(path, ignored)) return path;
@@ -146,19 +154,21 @@ Result<fs::path> projectFile(const fs::path& path)
                  Location{path.string(), 0, 0});
 }
 
-}  // namespace
-
 Result<std::unique_ptr<Project>> Project::load(const fs::path& path, EventsCenter& events, Catalog& catalog,
                                                const Progress& progress)
 {
-    const auto file = projectFile(path);
+    const auto file = findProjectFile(path);
     if (!file) return file.error();
+    const auto state = statFile(*file);
     auto text = readFile(*file);
     if (!text) return text.error();
+    FileState known = state.value_or(FileState());
+    known.hash = contentHash(*text);
     XmlSource source(file->string(), std::move(*text));
     if (const auto parsed = source.parse(); !parsed) return parsed.error();
     std::unique_ptr<Project> project(new Project(events, catalog));
     project->file_ = *file;
+    project->files_->known[file->filename().string()] = known;
     try {
         ProjectReader(source, *project, progress).read();
     } catch (const Failure& failure) {

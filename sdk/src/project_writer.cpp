@@ -13,12 +13,16 @@ namespace fs = std::filesystem;
 
 class ProjectWriter {
 public:
-    explicit ProjectWriter(Project& project) : project_(project), folder_(project.file_.parent_path()) {}
+    ProjectWriter(Project& project, Overwrite overwrite)
+        : project_(project), files_(*project.files_), folder_(project.folder()), overwrite_(overwrite)
+    {
+    }
 
     /// Scenes first, project.jet next, then what nobody refers to any more: a crash between leaves a project that
     /// opens.
     Result<void> write(bool everything)
     {
+        files_.notes.clear();
         if (const auto fine = check(); !fine) return fine;
         assignFiles();
         auto written = writeFiles(everything);
@@ -31,22 +35,94 @@ public:
 private:
     Result<void> writeFiles(bool everything)
     {
-        for (const Scene* scene : project_.scenes()) {
-            if (!everything && scene->undoRedo().isClean() && !fresh_.contains(scene)) continue;
-            const fs::path file = folder_ / project_.sceneFiles_[scene];
-            if (const auto made = makeFolder(file.parent_path()); !made) return made;
-            if (const auto written = writeFileAtomically(file, writeSceneText(*scene)); !written) return written;
-        }
         const std::string structure = project_.structure();
-        if (everything || structure != project_.savedStructure_ || usesChanged()) {
-            if (const auto made = makeFolder(folder_); !made) return made;
-            if (const auto written = writeFileAtomically(project_.file_, text(structure)); !written) return written;
-            project_.recordedUses_ = project_.pluginsUsed();
-            project_.savedStructure_ = structure;
+        std::vector<FileToWrite> files = filesToWrite(everything, structure);
+        if (const auto free = checkForeign(files); !free) return free;
+        if (!files.empty()) backUpOld(files);
+        if (files_.watcher) files_.watcher->aboutToSave(files, everything);
+        for (FileToWrite& file : files) {
+            const fs::path path = folder_ / file.path;
+            if (const auto made = makeFolder(path.parent_path()); !made) return made;
+            const auto written = writeFileAtomically(path, file.content);
+            remember(file, static_cast<bool>(written));
+            if (!written) return written;
         }
+        project_.recordedUses_ = project_.pluginsUsed();
+        project_.savedStructure_ = structure;
         for (Scene* scene : project_.scenes()) scene->undoRedo().markClean();
+        files_.unsaved.clear();
+        files_.structureUnsaved = false;
         removeObsolete();
+        if (files_.watcher) files_.watcher->saved();
         return {};
+    }
+
+    // Also a write that failed may have replaced the file, when only the folder could not be synced after.
+    void remember(const FileToWrite& file, bool written)
+    {
+        const fs::path path = folder_ / file.path;
+        auto state = statFile(path);
+        if (!state) return;
+        if (!written) {
+            const auto content = readFile(path);
+            if (!content || contentHash(*content) != file.hash) return;
+        }
+        state->hash = file.hash;
+        files_.known[file.path] = *state;
+    }
+
+    std::vector<FileToWrite> filesToWrite(bool everything, const std::string& structure)
+    {
+        std::vector<FileToWrite> files;
+        const auto add = [&](std::string path, const Scene* scene, std::string content) {
+            const std::uint64_t hash = contentHash(content);
+            files.push_back({std::move(path), scene, std::move(content), hash});
+        };
+        std::error_code ignored;
+        for (const Scene* scene : project_.scenes()) {
+            const std::string& path = project_.sceneFiles_[scene];
+            const bool same = scene->undoRedo().isClean() && !fresh_.contains(scene) && !files_.unsaved.contains(scene);
+            // A file that has gone is written again: the project in memory may be all there is of it.
+            if (everything || !same || !fs::exists(folder_ / path, ignored) || isReplaced(path))
+                add(path, scene, writeSceneText(*scene));
+        }
+        const std::string name = project_.file_.filename().string();
+        if (everything || files_.structureUnsaved || structure != project_.savedStructure_ || usesChanged() ||
+            !fs::exists(folder_ / name, ignored) || isReplaced(name))
+            add(name, nullptr, text(structure));
+        return files;
+    }
+
+    /// Another program's version, that the user wants to replace by this one although nothing was changed here.
+    bool isReplaced(const std::string& path) const
+    {
+        const auto known = files_.known.find(path);
+        return overwrite_ == Overwrite::Allow && known != files_.known.end() &&
+               differsOnDisk(folder_ / path, known->second);
+    }
+
+    Result<void> checkForeign(const std::vector<FileToWrite>& files) const
+    {
+        if (overwrite_ == Overwrite::Allow) return {};
+        for (const FileToWrite& file : files) {
+            const auto known = files_.known.find(file.path);
+            if (known == files_.known.end() || !differsOnDisk(folder_ / file.path, known->second)) continue;
+            return Error("another program changed this file since it was read, so it was not replaced; open the "
+                         "project again, save it elsewhere, or replace the file on purpose",
+                         Location{(folder_ / file.path).string(), 0, 0});
+        }
+        return {};
+    }
+
+    void backUpOld(const std::vector<FileToWrite>& files)
+    {
+        if (files_.backups == 0) return;
+        std::set<std::string> paths;
+        for (const FileToWrite& file : files) paths.insert(file.path);
+        for (const auto& [path, state] : files_.known) paths.insert(path);
+        for (const fs::path& path : project_.obsoleteFiles_) paths.insert(path.string());
+        const auto kept = backUp(folder_, project_.file_.filename().string(), paths, files_.backups);
+        if (!kept) files_.notes.push_back("the former state could not be kept as a backup: " + kept.error().text());
     }
 
     // What could be written but not opened again is refused before anything is written.
@@ -89,8 +165,13 @@ private:
         std::error_code ignored;
         std::set<std::string> used;
         for (const auto& [scene, file] : project_.sceneFiles_) used.insert(file);
-        for (const fs::path& file : project_.obsoleteFiles_)
-            if (!used.contains(file.string())) fs::remove(folder_ / file, ignored);
+        for (const fs::path& file : project_.obsoleteFiles_) {
+            if (used.contains(file.string())) continue;
+            const auto known = files_.known.find(file.string());
+            const bool foreign = known != files_.known.end() && differsOnDisk(folder_ / file, known->second);
+            if (!foreign) fs::remove(folder_ / file, ignored);  // what somebody else changed stays
+            files_.known.erase(file.string());
+        }
         project_.obsoleteFiles_.clear();
     }
 
@@ -156,15 +237,17 @@ private:
     }
 
     Project& project_;
+    Project::Files& files_;
     fs::path folder_;
+    Overwrite overwrite_;
     std::set<const Scene*> fresh_;
 };
 
-Result<void> Project::save()
+Result<void> Project::save(Overwrite overwrite)
 {
     if (file_.empty()) return Error("the project has no file yet; choose where to save it");
-    if (!isModified() && !savedStructure_.empty()) return {};
-    return ProjectWriter(*this).write(false);
+    if (overwrite == Overwrite::Refuse && !isModified() && !savedStructure_.empty()) return {};
+    return ProjectWriter(*this, overwrite).write(false);
 }
 
 Result<void> Project::saveAs(const fs::path& folderOrFile)
@@ -172,17 +255,20 @@ Result<void> Project::saveAs(const fs::path& folderOrFile)
     const fs::path old = file_;
     const auto oldScenes = sceneFiles_;
     const auto oldObsolete = obsoleteFiles_;
+    const auto oldKnown = files_->known;
     file_ = folderOrFile.extension() == ".jet" ? folderOrFile : folderOrFile / "project.jet";
     std::error_code ignored;
     if (!fs::equivalent(old, file_, ignored)) {
         sceneFiles_.clear();
         obsoleteFiles_.clear();  // they belong to the project left behind
+        files_->known.clear();
     }
-    auto written = ProjectWriter(*this).write(true);
+    auto written = ProjectWriter(*this, Overwrite::Allow).write(true);
     if (!written) {
         file_ = old;
         sceneFiles_ = oldScenes;
         obsoleteFiles_ = oldObsolete;
+        files_->known = oldKnown;
     }
     return written;
 }

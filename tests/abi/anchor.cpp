@@ -13,6 +13,7 @@
 #include <jet/item.hpp>
 #include <jet/item_type.hpp>
 #include <jet/items_center.hpp>
+#include <jet/journal.hpp>
 #include <jet/live_body.hpp>
 #include <jet/materials.hpp>
 #include <jet/painter.hpp>
@@ -22,6 +23,7 @@
 #include <jet/plugin.hpp>
 #include <jet/plugins.hpp>
 #include <jet/project.hpp>
+#include <jet/project_lock.hpp>
 #include <jet/property.hpp>
 #include <jet/result.hpp>
 #include <jet/scene.hpp>
@@ -112,6 +114,10 @@ TYPE(jet::SelectionChanged)
 TYPE(jet::Transaction)
 TYPE(jet::ItemsCenter)
 TYPE(jet::UndoRedoCenter)
+TYPE(jet::ReplayedScene)
+TYPE(jet::Journal)
+TYPE(jet::JournalInfo)
+TYPE(jet::Recovery)
 TYPE(jet::LiveSpring)
 TYPE(jet::LiveBody)
 TYPE(jet::MaterialTable)
@@ -163,7 +169,10 @@ TYPE(jet::Provider)
 TYPE(jet::PluginsCenter)
 TYPE(jet::Filter)
 TYPE(jet::PluginUse)
+TYPE(jet::Overwrite)
+TYPE(jet::Backup)
 TYPE(jet::Project)
+TYPE(jet::ProjectLock)
 TYPE(jet::PropertySpec)
 TYPE(jet::PropertyTable)
 TYPE(jet::Properties)

@@ -59,6 +59,30 @@ def file_format(scratch):
     check(project == (scratch / "foreign/project.jet").read_text(), f"the record of missing plugins changed:\n{project}")
 
 
+def schemas(scratch):
+    """The schemas of sdk/share accept the examples and what the documents show, and refuse what JET refuses."""
+    if not shutil.which("xmllint"):
+        print("xmllint is not installed: the schemas are not tried")
+        return
+    extract("docs/file-format.md", scratch)
+
+    def valid(kind, file):
+        return subprocess.run(["xmllint", "--noout", "--relaxng", SOURCE / f"sdk/share/{kind}.rng", file], capture_output=True).returncode == 0
+
+    for folder in (scratch, SOURCE / "examples"):
+        files = [f for f in folder.rglob("*") if f.suffix in (".jet", ".scene")]
+        check(files, f"there are no projects in {folder}")
+        for file in files:
+            check(valid("project" if file.suffix == ".jet" else "scene", file), f"the schema does not accept {file}")
+    scene = (scratch / "small/scenes/Scene 0.scene").read_text()
+    for old, new in (('id="1"', 'id="0"'), ('version="1"', 'version="2"'), ("<settings>", "<setings>"), ('locked="true"', 'locked="yes"'),
+                     ('collides="true"', 'collides="maybe"'), ('name="Ground"', 'nam="Ground"')):
+        check(old in scene, f"the example of the document has no {old} any more")
+        wrong = scratch / "wrong.scene"
+        wrong.write_text(scene.replace(old, new, 1).replace("</settings>", "</setings>") if "<set" in old else scene.replace(old, new, 1))
+        check(not valid("scene", wrong), f"the schema accepts {new}")
+
+
 def properties(_):
     """docs/file-format.md names every property of scenes, item types and effects, and every item type and effect."""
     document = read("docs/file-format.md")
@@ -117,7 +141,8 @@ def hello_tool(scratch):
 
 
 scratch_folder = pathlib.Path(tempfile.mkdtemp())
-os.environ.update(XDG_CONFIG_HOME=str(scratch_folder / "config"), XDG_DATA_HOME=str(scratch_folder / "data"))
+os.environ.update(XDG_CONFIG_HOME=str(scratch_folder / "config"), XDG_DATA_HOME=str(scratch_folder / "data"),
+                  XDG_STATE_HOME=str(scratch_folder / "state"))
 try:
     globals()[sys.argv[1]](scratch_folder)
 finally:

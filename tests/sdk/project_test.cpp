@@ -53,12 +53,12 @@ protected:
         fs::create_directories((folder / name).parent_path());
         std::ofstream(folder / name) << content;
     }
-    /// The folder's files with their content.
+    /// The project's files with their content, its backups left out.
     std::map<std::string, std::string> files() const
     {
         std::map<std::string, std::string> all;
         for (const auto& entry : fs::recursive_directory_iterator(folder))
-            if (entry.is_regular_file())
+            if (entry.is_regular_file() && entry.path().string().find(".jet-backups") == std::string::npos)
                 all[fs::relative(entry.path(), folder).string()] = readFile(entry.path()).orThrow();
         return all;
     }

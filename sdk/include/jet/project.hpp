@@ -27,8 +27,23 @@ struct PluginUse {
     std::vector<std::pair<ContributionKind, std::string>> provides = {};  ///< which ones, by kind and id
 };
 
+/// What saving does with a file that another program changed since it was read or written last.
+enum class Overwrite {
+    Refuse,  ///< fails before anything is written, naming the file
+    Allow,   ///< replaces it; the file as it was goes to the backups
+};
+
+/// A former state of a project, kept beside it (docs/file-format.md, "Backups").
+struct Backup {
+    std::string name;              ///< its time, UTC: "2031-05-01T12-30-05.250"
+    std::filesystem::path folder;  ///< with project.jet and the scenes as they were
+};
+
 class JET_API Project {
 public:
+    /// Former states kept when a save replaces them.
+    static constexpr std::size_t kDefaultBackups = 10;
+
     /// A new project with one filter "Filter0" and one empty scene "Scene 0" with a layer.
     static std::unique_ptr<Project> create(std::string name, EventsCenter& events, Catalog& catalog);
     /// Reads `project.jet` (or the folder that holds it) and its scenes. The error names file, line and column.
@@ -52,11 +67,24 @@ public:
     /// "Scene 0", "Scene 1", ...: the first that is free.
     std::string freeSceneName() const;
 
-    /// Writes what changed; each file atomically, project.jet last, so that a crash leaves a project that opens.
-    Result<void> save();
+    /// Writes what changed; each file atomically, project.jet last, so that a crash leaves a project that opens. The
+    /// files it replaces go to the backups first.
+    Result<void> save(Overwrite overwrite = Overwrite::Refuse);
+    /// Writes everything to another folder, .jet file or .jetz file, which is the project's from then on. Replaces the
+    /// project that is there: ask before.
     Result<void> saveAs(const std::filesystem::path& folderOrFile);
     /// Anything not saved?
     bool isModified() const;
+    /// Files that other programs changed since they were read or written last, as paths to show.
+    std::vector<std::filesystem::path> changedOnDisk() const;
+    /// What the last save could not do besides its work, e.g. keep a backup. Sentences.
+    const std::vector<std::string>& saveNotes() const;
+    /// How many former states a save keeps; 0: none.
+    void setBackupCount(std::size_t count);
+    /// The newest first.
+    std::vector<Backup> backups() const;
+    /// Where the project's files lie: the folder of file(), for a .jetz file that of its unpacked content.
+    std::filesystem::path folder() const;
 
     /// Loaded with these remarks (missing plugins, placeholders).
     const std::vector<FormatNote>& notes() const { return notes_; }
@@ -78,9 +106,21 @@ private:
     std::map<const Scene*, std::string> sceneFiles_;  ///< relative to the project's folder, '/' between parts
     std::vector<PluginUse> recordedUses_;             ///< as read: kept for plugins that are not installed
     std::string savedStructure_;
+    struct Files;
+    std::unique_ptr<Files> files_;
     friend class ProjectReader;
     friend class ProjectWriter;
+    friend class ProjectArchive;
+    friend class ProjectRecovery;
+    friend class Journal;
 };
+
+/// Puts a backup's files back in place. The state they replace becomes the newest backup.
+JET_API Result<void> restoreBackup(const std::filesystem::path& projectFile, const std::string& name);
+/// The same as Project::backups(), for a project that cannot be opened.
+JET_API std::vector<Backup> findBackups(const std::filesystem::path& projectFile);
+/// The .jet file meant by a folder, or the file itself; an Error where there is none or several.
+JET_API Result<std::filesystem::path> findProjectFile(const std::filesystem::path& path);
 
 /// A scene as the text of its file, and back. `file` is for messages.
 JET_API std::string writeSceneText(const Scene& scene);
