@@ -18,6 +18,8 @@ constexpr double kFewestCells = 12, kMostCells = 300;
 // How far a border particle looks for inside particles, in cells, and how many it may try.
 constexpr int kFarthestCells = 32;
 constexpr int kMostTries = 256;
+// Half a second of looking which springs stay inside.
+constexpr std::uint64_t kMostWallsSeen = 100'000'000;
 
 // Outlines beyond these sizes have areas a double cannot hold.
 constexpr double kSmallest = 1e-100, kLargest = 1e100;
@@ -298,7 +300,7 @@ private:
             for (const int k : distances)
                 for (int i = 0; i < (2 * k == n ? k : n); ++i) {
                     const std::uint32_t a = ring[i], b = ring[(i + k) % n];
-                    if (k == 1 || region_.holds(at(a), at(b))) add(a, b, SpringKind::Border);
+                    if (k == 1 || sees(at(a), at(b))) add(a, b, SpringKind::Border);
                 }
         }
     }
@@ -323,7 +325,7 @@ private:
     void joinIfSeen(const Grid& grid, std::size_t index, int column, int row)
     {
         const auto other = grid.find(column, row);
-        if (other && region_.holds(grid.points()[index], grid.points()[*other]))
+        if (other && sees(grid.points()[index], grid.points()[*other]))
             add(inside(index), inside(*other), SpringKind::Inside);
     }
 
@@ -333,7 +335,7 @@ private:
         for (std::uint32_t border = 0; border < lattice_.borderCount; ++border) {
             int joined = 0, tries = 0;
             grid.visitNearest(at(border), [&](std::size_t index) {
-                if (region_.holds(at(border), grid.points()[index])) {
+                if (sees(at(border), grid.points()[index])) {
                     add(border, inside(index), SpringKind::BorderToInside);
                     ++joined;
                 }
@@ -366,6 +368,16 @@ private:
         lattice_.particles = std::move(kept);
         std::erase_if(lattice_.springs, [&](const Spring& s) { return newIndex[s.a] == kDropped; });
         for (Spring& s : lattice_.springs) s.a = newIndex[s.a], s.b = newIndex[s.b];
+    }
+
+    /// Springs that would leave the region are not counted among kMostSprings, but looking for them takes its time.
+    bool sees(const Vec2& a, const Vec2& b)
+    {
+        if (region_.wallsSeen() > kMostWallsSeen)
+            fail(
+                "the lattice would take too long to make; set fewer intermediate points, a larger cell-size or shorter "
+                "spring ranges");
+        return region_.holds(a, b);
     }
 
     void add(std::uint32_t a, std::uint32_t b, SpringKind kind)

@@ -54,6 +54,7 @@ void Region::visitWalls(const Box& box, Visit&& visit) const
     if (walls_.empty()) return;
     const std::size_t first = band(box.min.y());
     for (std::size_t k = first; k <= band(box.max.y()); ++k) {
+        wallsSeen_ += bands_[k].size();
         for (const std::uint32_t index : bands_[k]) {
             const Wall& wall = walls_[index];
             if (k != std::max(first, band(wall.box.min.y()))) continue;  // seen in an earlier band
@@ -79,7 +80,9 @@ bool Region::contains(const Vec2& p) const
 {
     if (walls_.empty() || !bounds_.contains(p)) return false;
     bool inside = false;
-    for (const std::uint32_t index : bands_[band(p.y())]) {
+    const auto& walls = bands_[band(p.y())];
+    wallsSeen_ += walls.size();
+    for (const std::uint32_t index : walls) {
         const Wall& wall = walls_[index];
         if (meets(wall.a, wall.b, p.y()) && crossingX(wall.a, wall.b, p.y()) > p.x()) inside = !inside;
     }

@@ -31,6 +31,8 @@ public:
     std::vector<double> crossings(double y) const;
     /// Does the segment stay in the region? It may touch the walls and run along them.
     bool holds(const Vec2& a, const Vec2& b) const;
+    /// How many walls all questions so far had to look at: what they cost, the same on every machine.
+    std::uint64_t wallsSeen() const { return wallsSeen_; }
 
 private:
     struct Wall {
@@ -48,6 +50,7 @@ private:
     Box bounds_;
     double tolerance_ = 0;
     double bandHeight_ = 1;
+    mutable std::uint64_t wallsSeen_ = 0;
     std::vector<std::vector<std::uint32_t>> bands_;  // walls by the bands their boxes meet
 };
 

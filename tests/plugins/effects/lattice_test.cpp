@@ -435,6 +435,16 @@ TEST(Lattice, TooManySpringsAreRefused)
     EXPECT_NE(failureOf(rectangle(130, 130), options).find("springs"), std::string::npos);
 }
 
+// A comb: springs between its teeth would leave it, so it is not their number that stops the search for them.
+TEST(Lattice, SpringsThatTakeTooLongToFindAreRefused)
+{
+    std::vector<Vec2> comb{{4000, 0}, {0, 0}};
+    for (int i = 0; i < 4000; ++i) comb.insert(comb.end(), {Vec2(i, 100), Vec2(i + 0.5, 1 + i % 50)});
+    Options options;
+    options.border = {1, 1000};
+    EXPECT_NE(failureOf(Path::polygon(comb), options).find("too long"), std::string::npos);
+}
+
 TEST(Lattice, AnOutlineWithoutAreaIsRefusedInWords)
 {
     const Vec2 flat[] = {{0, 0}, {50, 0}, {100, 0}};
