@@ -3,10 +3,13 @@
 #include "canvas/insertion_point.hpp"
 
 #include <jet/format.hpp>
+#include <jet/plugins.hpp>
 
 #include <QCoreApplication>
+#include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMimeData>
 #include <QRegularExpression>
 
 namespace jet::host {
@@ -23,11 +26,15 @@ QString patternOf(const Contribution& format)
     return patterns.join(QLatin1Char(' '));
 }
 
+bool isPackage(const QString& file) { return QFileInfo(file).suffix().toLower() == QLatin1String("jetplugin"); }
+
 }  // namespace
 
 FormatController::FormatController(Editor& editor, Documents& documents, QWidget* window)
     : QObject(window), editor_(editor), documents_(documents), window_(window)
 {
+    window_->setAcceptDrops(true);
+    window_->installEventFilter(this);
 }
 
 std::vector<ActionSpec> FormatController::actions()
@@ -96,7 +103,28 @@ bool FormatController::exportFile(const std::filesystem::path& file)
 
 void FormatController::importFiles(const QStringList& files)
 {
-    for (const QString& file : files) importFile(file.toStdString());
+    for (const QString& file : files)
+        isPackage(file) ? installPackage(file.toStdString()) : static_cast<void>(importFile(file.toStdString()));
+}
+
+void FormatController::installPackage(const std::filesystem::path& file)
+{
+    const auto done = editor_.plugins().install(file);
+    editor_.showMessage(done ? done->message : done.error().text());
+}
+
+bool FormatController::eventFilter(QObject* watched, QEvent* event)
+{
+    if (event->type() != QEvent::DragEnter && event->type() != QEvent::Drop)
+        return QObject::eventFilter(watched, event);
+    auto* drop = static_cast<QDropEvent*>(event);  // a QDragEnterEvent is one
+    QStringList packages;
+    for (const QUrl& url : drop->mimeData()->urls())
+        if (url.isLocalFile() && isPackage(url.toLocalFile())) packages << url.toLocalFile();
+    if (packages.isEmpty()) return false;
+    drop->acceptProposedAction();
+    if (event->type() == QEvent::Drop) importFiles(packages);
+    return true;
 }
 
 void FormatController::report(const std::vector<FormatNote>& notes)

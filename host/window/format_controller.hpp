@@ -18,10 +18,13 @@ public:
     /// Into the front scene, as one undo step. False, and the scene unchanged, when the file cannot be read.
     bool importFile(const std::filesystem::path& file);
     bool exportFile(const std::filesystem::path& file);
-    /// Files dropped on a view: a project is none of this one's business and left out.
+    /// Files dropped on the window: packages of plugins (.jetplugin) are installed, the others imported.
     void importFiles(const QStringList& files);
+    /// Takes drops of packages anywhere on the window; views take drops of all files themselves.
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    void installPackage(const std::filesystem::path& file);
     void askAndImport();
     void askAndExport();
     QString filters(ContributionKind kind, const QString& all) const;
