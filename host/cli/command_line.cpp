@@ -1,3 +1,4 @@
+#include "check_commands.hpp"
 #include "commands.hpp"
 #include "package_commands.hpp"
 #include "plugin_new_command.hpp"
@@ -108,6 +109,7 @@ void addPlugins(CLI::App& app, Parsed& parsed)
     one("disable", "Switch a plugin off", [](Session& s, const std::string& id) { return enablePlugin(s, id, false); });
     addPackageCommands(*plugins, parsed.run);
     addNewPluginCommand(*plugins, parsed.run);
+    addCheckCommands(*plugins, parsed.run);
 }
 
 void addProject(CLI::App& app, Parsed& parsed)

@@ -233,7 +233,7 @@ void addPackageCommands(CLI::App& plugins, std::function<int(Session&)>& run)
 
     auto* packing = command("pack", "Make a package (.jetplugin) of a built plugin folder", pack);
     packing->add_option("folder", options->folder, "Folder of a built plugin")->required()->type_name("DIR");
-    packing->add_option("output", options->output, "File or folder to write to; ID-VERSION.jetplugin here if not given")
+    packing->add_option("target", options->output, "File or folder to write to; ID-VERSION.jetplugin here if not given")
         ->type_name("OUTPUT");
 
     auto* installing =
