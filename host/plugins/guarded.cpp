@@ -293,6 +293,30 @@ public:
     void setPosition(BodyHandle body, const Vec2& centre) override { g_.inner->setPosition(body, centre); }
     void setGravity(const Vec2& gravity) override { g_.inner->setGravity(gravity); }
     bool springAlive(BodyHandle body, std::uint32_t index) const override { return g_.inner->springAlive(body, index); }
+    JointHandle addJoint(const JointDef& def) override { return g_.inner->addJoint(def); }
+    JointState joint(JointHandle handle) const override { return g_.inner->joint(handle); }
+    void setMotor(JointHandle handle, bool driven, double speed) override { g_.inner->setMotor(handle, driven, speed); }
+    void setJointTarget(JointHandle handle, const Vec2& target) override { g_.inner->setJointTarget(handle, target); }
+    void removeJoint(JointHandle handle) override { g_.inner->removeJoint(handle); }
+    bool awake(BodyHandle body) const override { return g_.inner->awake(body); }
+    void wake(BodyHandle body) override { g_.inner->wake(body); }
+    std::span<const ContactEvent> contactEvents() const override { return g_.inner->contactEvents(); }
+    std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter& filter) const override
+    {
+        return g_.inner->rayCast(from, to, filter);
+    }
+    std::optional<CastHit> shapeCast(const ShapeDef& shape, const Vec2& way, const QueryFilter& filter) const override
+    {
+        return g_.inner->shapeCast(shape, way, filter);
+    }
+    std::vector<BodyHandle> overlapping(const Box& box, const QueryFilter& filter) const override
+    {
+        return g_.inner->overlapping(box, filter);
+    }
+    std::optional<CastHit> nearest(const Vec2& point, double reach, const QueryFilter& filter) const override
+    {
+        return g_.inner->nearest(point, reach, filter);
+    }
     std::uint64_t hash() const override { return g_.inner->hash(); }
     std::vector<std::byte> save() const override { return g_.inner->save(); }
     void restore(std::span<const std::byte> state) override { g_.inner->restore(state); }

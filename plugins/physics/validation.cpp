@@ -94,6 +94,22 @@ void validate(const RigidBodyDef& def, const WorldSettings& settings)
     if (!(def.mass > 0)) fail("a rigid body's mass must be greater than 0.");
     for (const auto& border : def.borders)
         for (const Vec2& at : border) requirePlace("a rigid body's border point", at);
+    for (const ShapeDef& shape : def.shapes) validate(shape);
+}
+
+void validate(const ShapeDef& shape)
+{
+    for (const Vec2& at : shape.points) requirePlace("a shape's point", at);
+    if (shape.kind == ShapeDef::Kind::Polygon) {
+        if (shape.points.size() < 3 || shape.points.size() > 8)
+            fail("a polygon shape has 3 to 8 points, not " + std::to_string(shape.points.size()) +
+                 "; give other outlines as borders.");
+        return;
+    }
+    const std::size_t wanted = shape.kind == ShapeDef::Kind::Circle ? 1 : 2;
+    if (shape.points.size() != wanted) fail("a circle shape has one point, a capsule two.");
+    requireFinite("a shape's radius", {shape.radius});
+    if (!(shape.radius > 0)) fail("a shape's radius must be greater than 0.");
 }
 
 void validate(const Anchor& anchor, std::size_t bodyCount)

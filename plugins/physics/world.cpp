@@ -1,6 +1,7 @@
 #include "world.hpp"
 
 #include "border.hpp"
+#include "outline.hpp"
 #include "validation.hpp"
 
 #include <numeric>
@@ -36,6 +37,14 @@ void World::addPoint(Index node, const Vec2& local, const Vec2& position)
 }
 
 namespace {
+
+/// Closed rings for what collides by points and walls: the borders, or those of the parts.
+std::vector<std::vector<Vec2>> outlinesOf(const RigidBodyDef& def)
+{
+    std::vector<std::vector<Vec2>> rings = def.borders;
+    for (const ShapeDef& shape : def.shapes) rings.push_back(outlineOf(shape));
+    return rings;
+}
 
 /// The side of a square as large as the region; for bodies without area, a part of their extent.
 double typicalLength(const Region& region, const Box& bounds)
@@ -92,7 +101,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     body.nodes.count = 1;
     state_.nodes.add(handle, Vec2(0, 0), def.mass, 0, 0);
     std::vector<std::vector<Index>> rings;
-    for (const auto& border : def.borders) {
+    for (const auto& border : outlinesOf(def)) {
         auto& ring = rings.emplace_back(border.size());
         std::iota(ring.begin(), ring.end(), static_cast<Index>(state_.points.size()));
         for (const Vec2& at : border) addPoint(body.nodes.first, at, at);

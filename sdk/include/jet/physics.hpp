@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace jet {
 using BodyHandle = std::uint32_t;
 using ParticleHandle = std::uint32_t;
 using ActuatorHandle = std::uint32_t;
+using JointHandle = std::uint32_t;
 inline constexpr std::uint32_t kNoHandle = 0xffffffffU;
 
 /// How a pair of materials meets (thesis §2.4.3.4; SPEC PH8).
@@ -27,6 +29,23 @@ struct MaterialPair {
     double restitution = 0.1;  ///< 0 no bounce, 1 full
     bool collides = true;
 };
+
+/// How velocities and contacts become motion.
+enum class Integration : std::uint8_t {
+    SoftStep,          ///< substeps with soft, warm-started contacts: the default
+    SemiImplicitEuler  ///< the thesis's scheme, one substep a step: for teaching and comparison; stiff scenes are
+                       ///< softened
+};
+
+/// Width of the numbers rigid contacts and joints are solved in. Positions are double at this interface in any case.
+enum class Precision : std::uint8_t {
+    Automatic,  ///< double for small worlds and those with soft bodies, single for large ones
+    Double,     ///< momentum is kept to the last bits
+    Single
+};
+
+/// Instructions of the wide kernels; every choice gives the same bits.
+enum class Simd : std::uint8_t { Automatic, Sse2, Avx2 };
 
 struct WorldSettings {
     Vec2 gravity{0, 98.1};       ///< scene units / s²
@@ -40,6 +59,11 @@ struct WorldSettings {
     std::vector<MaterialPair> materials =
         std::vector<MaterialPair>(1);  ///< [materialCount x materialCount], row major, symmetric
     int threads = 1;
+    int substeps = 0;  ///< of the rigid solver a step; 0: 4 in large worlds of rigid bodies, else as the scene needs
+    Integration integration = Integration::SoftStep;
+    Precision precision = Precision::Automatic;
+    Simd simd = Simd::Automatic;
+    bool allowSleep = false;  ///< islands at rest stop being computed until something touches or changes them
 };
 
 /// Spring between two particles of one soft body (SPEC PH2).
@@ -66,6 +90,27 @@ struct BodyCommon {
     double omega = 0;            ///< initial, rad/s (soft bodies: applied about their centre of mass)
     double gravityScale = 1;
     bool sensor = false;  ///< contacts are reported, not resolved
+
+    // Rigid bodies only.
+    bool kinematic = false;      ///< moves with its velocity and omega, and nothing pushes it
+    bool fixedRotation = false;  ///< never turns
+    bool allowSleep = true;      ///< may fall asleep where the world allows it
+    std::uint32_t group = 0;     ///< bodies of one group above 0 do not collide with each other
+    std::uint32_t layer = 1;     ///< bits: the layers it is on
+    std::uint32_t mask = ~0U;    ///< bits: the layers it collides with; both sides must agree
+    Vec2 oneSided;               ///< not null: only what comes against this direction collides (platforms)
+};
+
+/// A simple convex part of a rigid body, in scene coordinates at rest.
+struct ShapeDef {
+    enum class Kind : std::uint8_t {
+        Circle,   ///< points[0] is the centre
+        Capsule,  ///< around the segment from points[0] to points[1]
+        Polygon   ///< convex, 3 to 8 points, in either direction
+    };
+    Kind kind = Kind::Polygon;
+    std::vector<Vec2> points;
+    double radius = 0;  ///< circle and capsule, scene units, > 0
 };
 
 /// Closed walls a body collides with. Borders of one body are one region: a
@@ -83,7 +128,8 @@ struct SoftBodyDef {
 struct RigidBodyDef {
     BodyCommon common;
     std::vector<std::vector<Vec2>> borders;  ///< closed rings, scene coordinates at rest
-    double mass = 1;                         ///< > 0; the moment of inertia follows from the borders (SPEC PH5)
+    double mass = 1;                         ///< > 0; the moment of inertia follows from the outline (SPEC PH5)
+    std::vector<ShapeDef> shapes;            ///< instead of borders: a body composed of these parts
 };
 
 /// A point fixed to a body (or, with body == kNoHandle, to the background).
@@ -119,6 +165,70 @@ struct ForceActuatorDef {
     Vec2 force;
 };
 
+/// Holds two bodies together, or a body to the background. Which fields count depends on the kind; angles and lengths
+/// are measured from the pose at the time of adding.
+struct JointDef {
+    enum class Kind : std::uint8_t {
+        Revolute,   ///< b's point stays at a's; turning is free, limited or driven
+        Prismatic,  ///< slides along `axis`, which turns with a; no turning
+        Weld,       ///< neither moves nor turns against the other; `hertz` > 0 makes it elastic
+        Distance,   ///< keeps `length` between the points; `hertz` > 0 makes it a spring
+        Rope,       ///< no farther than `length`
+        Wheel,      ///< slides along `axis` on a spring of `hertz`, turns freely or driven
+        Motor,      ///< drives b's speed against a to `motorVelocity` and `motorSpeed` with limited force and torque
+        Mouse,      ///< pulls b's point towards a's (mostly the background's) with limited force
+        Pulley      ///< |groundA a| + ratio |groundB b| stays what it is
+    };
+    Kind kind = Kind::Revolute;
+    Anchor a, b;
+    Vec2 axis{1, 0};          ///< direction in the scene; prismatic and wheel
+    bool limited = false;     ///< keep angle (revolute) or travel (prismatic, wheel) from `lower` to `upper`
+    double lower = 0;         ///< radians or scene units
+    double upper = 0;         ///< radians or scene units
+    bool driven = false;      ///< the motor is on
+    double motorSpeed = 0;    ///< rad/s (revolute, wheel, motor) or units/s (prismatic)
+    Vec2 motorVelocity;       ///< units/s; motor joint
+    double maxForce = 0;      ///< force the motor or mouse has at most
+    double maxTorque = 0;     ///< torque the motor has at most
+    double hertz = 0;         ///< 1/s of the joint's spring; 0: rigid
+    double dampingRatio = 1;  ///< 1: critical
+    double length = -1;       ///< scene units; < 0: the distance at the time of adding
+    double ratio = 1;         ///< pulley
+    Vec2 groundA, groundB;    ///< pulley's wheels, scene coordinates
+    double breakForce = 0;    ///< breaks above this force; 0: never
+    bool collide = false;     ///< may the joined bodies collide?
+};
+
+/// What a joint did in the last step.
+struct JointState {
+    Vec2 force;         ///< on b
+    double torque = 0;  ///< on b
+    double value = 0;   ///< angle (radians) or travel or distance (units) since the time of adding
+    bool broken = false;
+};
+
+/// Two bodies began to touch, or ended. Touches that go on are in contacts().
+struct ContactEvent {
+    BodyHandle bodyA = kNoHandle, bodyB = kNoHandle;  ///< bodyA < bodyB
+    bool begins = false;
+    double impulse = 0;  ///< begins: of the first step, mass * unit / s
+};
+
+/// Where a ray or a cast shape first meets a body.
+struct CastHit {
+    BodyHandle body = kNoHandle;
+    Vec2 point;           ///< scene coordinates
+    Vec2 normal;          ///< unit, out of the body
+    double fraction = 0;  ///< 0..1 of the way
+};
+
+/// Which bodies a query sees.
+struct QueryFilter {
+    std::uint32_t mask = ~0U;       ///< bits: layers
+    BodyHandle except = kNoHandle;  ///< this body is looked through
+    bool sensors = false;           ///< are sensors seen?
+};
+
 /// One touching point found in the last step (SPEC PH9).
 struct Contact {
     BodyHandle bodyA = kNoHandle;  ///< owner of the particle or vertex
@@ -148,6 +258,10 @@ struct BodyStates {
 struct StepStats {
     std::uint32_t contacts = 0;
     double broadPhaseMs = 0, narrowPhaseMs = 0, solverMs = 0, springsMs = 0;
+    std::uint32_t awakeBodies = 0;  ///< bodies that were computed
+    std::uint32_t islands = 0;      ///< groups of bodies that touch or are joined; 0 where sleeping is off
+    std::uint32_t colours = 0;      ///< groups of contacts that are solved side by side
+    std::size_t memory = 0;         ///< bytes the world holds for bodies, contacts and joints
 };
 
 class JET_API PhysicsWorld {
@@ -187,6 +301,29 @@ public:
 
     /// Spring and torn state for drawing: is the soft body's spring `index` still whole?
     virtual bool springAlive(BodyHandle body, std::uint32_t index) const = 0;
+
+    // What follows an engine may lack; the default refuses with a sentence or answers "nothing".
+
+    virtual JointHandle addJoint(const JointDef&);
+    virtual JointState joint(JointHandle) const;
+    virtual void setMotor(JointHandle, bool driven, double speed);
+    /// Moves the end of a joint that is fixed to the background (a mouse joint's target).
+    virtual void setJointTarget(JointHandle, const Vec2& target);
+    virtual void removeJoint(JointHandle);
+
+    virtual bool awake(BodyHandle) const { return true; }
+    virtual void wake(BodyHandle) {}
+    /// Touches that began or ended in the last step, in ascending order of bodies.
+    virtual std::span<const ContactEvent> contactEvents() const { return {}; }
+
+    /// The first body on the way from one place to another.
+    virtual std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter& = {}) const;
+    /// The first body a shape meets when it is moved without turning.
+    virtual std::optional<CastHit> shapeCast(const ShapeDef&, const Vec2& way, const QueryFilter& = {}) const;
+    /// Bodies whose outline meets the box, ascending.
+    virtual std::vector<BodyHandle> overlapping(const Box&, const QueryFilter& = {}) const;
+    /// The point of any body nearest to `point`, no farther than `reach`; fraction = distance / reach.
+    virtual std::optional<CastHit> nearest(const Vec2& point, double reach, const QueryFilter& = {}) const;
 
     /// Hash of the complete dynamic state (positions, velocities, actuator values, warm-start data).
     virtual std::uint64_t hash() const = 0;

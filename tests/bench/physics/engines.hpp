@@ -1,0 +1,35 @@
+// The engines of the comparison behind one interface. Each keeps the scene's bodies in the scene's order.
+#pragma once
+
+#include "bench/physics/scene.hpp"
+
+#include <memory>
+
+namespace jet::bench {
+
+struct Pose {
+    Point position;  // of the body's origin
+    double angle = 0;
+};
+
+class Engine {
+public:
+    virtual ~Engine() = default;
+    virtual void step(double dt) = 0;
+    virtual Pose pose(std::size_t body) const = 0;
+    /// Bytes the engine holds; 0: not known.
+    virtual std::size_t memory() const { return 0; }
+};
+
+struct JetOptions {
+    int threads = 1;
+    std::string simd;       // "", "sse2" or "avx2"
+    std::string precision;  // "", "double" or "single"
+    int substeps = 0;
+};
+
+std::unique_ptr<Engine> makeJet(const Scene&, const JetOptions&);
+std::unique_ptr<Engine> makeBox2d(const Scene&);
+std::unique_ptr<Engine> makeChipmunk(const Scene&);
+
+}  // namespace jet::bench
