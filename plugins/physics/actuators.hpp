@@ -12,6 +12,8 @@ public:
     ActuatorHandle add(const State&, const TorqueActuatorDef&);
     ActuatorHandle add(const State&, const ForceActuatorDef&);
 
+    bool anySpring() const { return !springs_.empty() || !angularSprings_.empty(); }
+    bool any() const { return anySpring() || !torques_.empty() || !forces_.empty(); }
     Index torqueCount() const { return static_cast<Index>(torques_.size()); }
     Index forceCount() const { return static_cast<Index>(forces_.size()); }
     void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }

@@ -65,6 +65,11 @@ void integrateVelocities(State& state, const WorldSettings& settings, const soft
     }
 }
 
+void limitVelocities(State& state)
+{
+    for (Index n = 0; n < state.nodes.size(); ++n) limit(state.nodes.velocity[n], state.nodes.omega[n]);
+}
+
 void integratePositions(State& state, const soft::Kernels& kernels, double h)
 {
     Nodes& nodes = state.nodes;

@@ -8,6 +8,8 @@ namespace jet::physics {
 
 /// Gravity, forces, torques and damping over h. Forces and torques are used up.
 void integrateVelocities(State&, const WorldSettings&, const soft::Kernels&, double h);
+/// Keeps absurd speeds from reaching infinity.
+void limitVelocities(State&);
 void integratePositions(State&, const soft::Kernels&, double h);
 
 }  // namespace jet::physics

@@ -36,4 +36,67 @@ std::vector<Vec2> outlineOf(const ShapeDef& shape)
     return ring;
 }
 
+namespace {
+
+struct Moments {
+    double area = 0, second = 0;  // the latter about the shape's own centroid
+    Vec2 centroid;
+};
+
+Moments momentsOf(const ShapeDef& shape)
+{
+    Moments m;
+    const double r = shape.radius, disc = kPi * r * r;
+    if (shape.kind == ShapeDef::Kind::Circle) {
+        m.area = disc, m.second = 0.5 * disc * r * r, m.centroid = shape.points[0];
+        return m;
+    }
+    if (shape.kind == ShapeDef::Kind::Capsule) {
+        const double half = 0.5 * (shape.points[1] - shape.points[0]).norm(), box = 4 * half * r;
+        m.centroid = 0.5 * (shape.points[0] + shape.points[1]);
+        m.area = box + disc;
+        // Half discs: their moment about the ends' centres, moved over by Steiner with centroids 4r / 3pi beyond.
+        const double beyond = 4 * r / (3 * kPi);
+        m.second = box * (4 * half * half + 4 * r * r) / 12 +
+                   disc * (0.5 * r * r - beyond * beyond + (half + beyond) * (half + beyond));
+        return m;
+    }
+    const Vec2 origin = shape.points[0];
+    Vec2 moment(0, 0);
+    double second = 0;
+    for (std::size_t i = 0; i < shape.points.size(); ++i) {
+        const Vec2 a = shape.points[i] - origin, b = shape.points[(i + 1) % shape.points.size()] - origin;
+        const double twice = cross(a, b);
+        m.area += 0.5 * twice;
+        moment += twice / 6 * (a + b);
+        second += twice / 12 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+    }
+    if (m.area == 0) return m;
+    const Vec2 centre = moment / m.area;
+    m.second = std::abs(second - m.area * centre.squaredNorm());
+    m.centroid = origin + centre;
+    m.area = std::abs(m.area);
+    return m;
+}
+
+}  // namespace
+
+Region measureShapes(const std::vector<ShapeDef>& shapes)
+{
+    Region region;
+    Vec2 moment(0, 0);
+    for (const ShapeDef& shape : shapes) {
+        const Moments m = momentsOf(shape);
+        region.area += m.area;
+        moment += m.area * m.centroid;
+    }
+    if (!(region.area > 0)) return Region();
+    region.centroid = moment / region.area;
+    for (const ShapeDef& shape : shapes) {
+        const Moments m = momentsOf(shape);
+        region.inertia += (m.second + m.area * (m.centroid - region.centroid).squaredNorm()) / region.area;
+    }
+    return region;
+}
+
 }  // namespace jet::physics

@@ -72,6 +72,9 @@ struct Range {
 
 struct BodyRecord {
     bool rigid = false, fixed = false, sensor = false;
+    bool simple = false;     // rigid, of convex parts: meets its like in rigid/, not by points and walls
+    bool kinematic = false;  // moves with its velocity, and nothing pushes it
+    std::uint32_t layer = 1;
     Index material = 0;
     double gravityScale = 1;
     double mass = 0;

@@ -18,6 +18,8 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     body.sensor = common.sensor;
     body.material = common.material;
     body.gravityScale = common.gravityScale;
+    body.kinematic = rigid && common.kinematic && !common.fixed;
+    body.layer = common.layer;
     body.nodes.first = static_cast<Index>(state_.nodes.size());
     body.points.first = static_cast<Index>(state_.points.size());
     body.walls.first = static_cast<Index>(state_.walls.size());
@@ -109,6 +111,8 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     body.points.count = static_cast<Index>(state_.points.size()) - body.points.first;
     addBorders(state_, body, rings);
     setRigidMass(body, def);
+    body.simple = rigid_.add(state_, handle, def);
+    complex_ += !body.simple;
     return finishBody(def.common);
 }
 
@@ -116,7 +120,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
 /// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
 void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def)
 {
-    const Region region = measureRegion(state_, body);
+    const Region region = def.shapes.empty() ? measureRegion(state_, body) : measureShapes(def.shapes);
     auto& local = state_.points.local;
     Box bounds;
     Vec2 centre(0, 0);
@@ -138,9 +142,9 @@ void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def)
     const Index node = body.nodes.first;
     body.mass = def.mass;
     state_.nodes.position[node] = centre;
-    if (def.common.fixed) return;
+    if (def.common.fixed || def.common.kinematic) return;
     state_.nodes.invMass[node] = 1 / def.mass;
-    state_.nodes.invInertia[node] = 1 / (def.mass * second);
+    state_.nodes.invInertia[node] = def.common.fixedRotation ? 0 : 1 / (def.mass * second);
 }
 
 BodyHandle World::finishBody(const BodyCommon& common)
@@ -155,6 +159,7 @@ BodyHandle World::finishBody(const BodyCommon& common)
     readings.firstPoint.push_back(static_cast<Index>(state_.points.size()));
     stepForces_.resize(state_.nodes.size());
     rate_ = -1;
+    untold_ = true;
     updateReading(state_, handle);
     setVelocity(handle, common.velocity);
     setOmega(handle, common.omega);

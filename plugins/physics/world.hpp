@@ -4,6 +4,7 @@
 #include "actuators.hpp"
 #include "contact_finder.hpp"
 #include "contact_solver.hpp"
+#include "rigid/stage.hpp"
 #include "shape_memory.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
@@ -25,8 +26,8 @@ public:
 
     std::size_t bodyCount() const override { return state_.bodies.size(); }
     BodyStates bodies() const override;
-    std::span<const Contact> contacts() const override { return reports_; }
-    StepStats stats() const override { return stats_; }
+    std::span<const Contact> contacts() const override;
+    StepStats stats() const override;
     bool touching(BodyHandle a, BodyHandle b) const override;
     bool contains(BodyHandle body, const Vec2& point) const override;
 
@@ -41,6 +42,16 @@ public:
 
     bool springAlive(BodyHandle body, std::uint32_t index) const override;
 
+    JointHandle addJoint(const JointDef&) override;
+    JointState joint(JointHandle) const override;
+    void setMotor(JointHandle, bool driven, double speed) override;
+    void setJointTarget(JointHandle, const Vec2& target) override;
+    void removeJoint(JointHandle) override;
+    std::span<const ContactEvent> contactEvents() const override { return rigid_.events(); }
+    std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter&) const override;
+    std::vector<BodyHandle> overlapping(const Box&, const QueryFilter&) const override;
+    std::optional<CastHit> nearest(const Vec2& point, double reach, const QueryFilter&) const override;
+
     std::uint64_t hash() const override;
     std::vector<std::byte> save() const override;
     void restore(std::span<const std::byte> bytes) override;
@@ -53,6 +64,15 @@ private:
 
     void prepareStiffness();
     void substep(double h, int index, int count);
+    /// Nothing but simple rigid bodies, and no spring between them: then the rigid stage does the whole step.
+    bool onlySimple() const;
+    void stepSimple(double dt);
+    void moveKinematic(double h);
+    /// Points, readings and reports are worked out when someone asks.
+    void refresh() const;
+    void reportIfAsked() const;
+    template <class Visit>
+    void eachEdge(const QueryFilter&, const Box& region, Visit&&) const;
     void report();
     void reportContact(const ContactPoint&);
 
@@ -66,6 +86,10 @@ private:
     Actuators actuators_;
     ContactFinder finder_;
     ContactSet contacts_;
+    RigidStage rigid_;
+    bool stale_ = false;   // points and readings are older than the nodes
+    bool untold_ = false;  // so are the reports
+    Index complex_ = 0;    // bodies that go by points and walls
     std::vector<ContactPoint> ended_;  // pushed in this step, but are over
     std::vector<Vec2> stepForces_;     // [nodes] of applyForce, for the next step only
     bool pushed_ = false;              // is any of them not null?

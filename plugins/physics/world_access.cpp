@@ -7,6 +7,7 @@ namespace jet::physics {
 
 BodyStates World::bodies() const
 {
+    refresh();
     const BodyReadings& readings = state_.readings;
     return {readings.position, readings.angle,      readings.velocity,     readings.omega,
             readings.bounds,   readings.firstPoint, state_.points.position};
@@ -14,6 +15,7 @@ BodyStates World::bodies() const
 
 bool World::touching(BodyHandle a, BodyHandle b) const
 {
+    reportIfAsked();
     const std::uint64_t pair = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
     return std::binary_search(touching_.begin(), touching_.end(), pair);
 }
@@ -62,6 +64,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
 {
     requireBelow("body", handle, bodyCount());
     requireFinite("an impulse", impulse);
+    refresh();
     const BodyRecord& body = state_.bodies[handle];
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / body.mass;
@@ -72,10 +75,11 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
 {
     requireBelow("body", handle, bodyCount());
     requireFinite("a velocity", velocity);
+    refresh();
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 change = velocity - state_.readings.velocity[handle];
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += change;
+        if (state_.nodes.invMass[n] > 0 || body.kinematic) state_.nodes.velocity[n] += change;
     updateReading(state_, handle);
 }
 
@@ -83,10 +87,11 @@ void World::setOmega(BodyHandle handle, double omega)
 {
     requireBelow("body", handle, bodyCount());
     requireFinite("a turning rate", {omega});
+    refresh();
     const BodyRecord& body = state_.bodies[handle];
     const double change = omega - state_.readings.omega[handle];
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        if (state_.nodes.invMass[n] == 0) continue;
+        if (state_.nodes.invMass[n] == 0 && !body.kinematic) continue;
         if (body.rigid) {
             state_.nodes.omega[n] = omega;
         } else {
@@ -101,6 +106,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
 {
     requireBelow("body", handle, bodyCount());
     requirePlace("a position", centre);
+    refresh();
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 shift = centre - state_.readings.position[handle];
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
@@ -129,6 +135,8 @@ void World::archive(Self& self, Archive& with)
     with(nodes.velocity);
     with(nodes.angle);
     with(nodes.omega);
+    with(nodes.rotation);
+    self.rigid_.archive(with);
     with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
     self.springs_.archive(with);
     self.shapes_.archive(with);
@@ -149,6 +157,8 @@ void World::archive(Self& self, Archive& with)
 
 std::vector<std::byte> World::save() const
 {
+    refresh();
+    reportIfAsked();
     SaveArchive archiveOut;
     archive(const_cast<World&>(*this), archiveOut);  // stages offer one list for both directions; saving only reads
     return archiveOut.take();
@@ -174,7 +184,8 @@ void World::restore(std::span<const std::byte> bytes)
         read(before);
         throw;
     }
-    for (Index n = 0; n < state_.nodes.size(); ++n) state_.nodes.rotation[n] = direction(state_.nodes.angle[n]);
+    rigid_.rebuild();
+    stale_ = untold_ = false;
     updatePoints(state_);
     updateReadings(state_);
 }

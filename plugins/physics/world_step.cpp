@@ -33,6 +33,9 @@ void World::step(double dt)
     if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
     stats_ = StepStats();
     ended_.clear();
+    untold_ = false;
+    if (onlySimple()) return stepSimple(dt);
+    refresh();
     prepareStiffness();
     const int count = substepsFor(dt, rate_);
     const double h = dt / count;
@@ -62,7 +65,12 @@ void World::step(double dt)
             contacts_.begin(state_);
             soughtAt = now;
         }
+        if (i == 0) {
+            rigid_.find(state_, settings_, dt, stats_);
+            rigid_.begin(state_, settings_, h, dt);
+        }
         substep(h, i, count);
+        if (i + 1 == count) rigid_.finish(state_, true);
     }
     if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
     pushed_ = false;
@@ -100,10 +108,13 @@ void World::substep(double h, int index, int count)
         actuators_.applySprings(state_, h, backwards);
     }
     const Stopwatch watch(stats_.solverMs);
+    rigid_.push(state_);
     ContactSolver solver(state_, contacts_, h, settings_.applyGravity ? settings_.gravity.norm() : 0);
     solver.prepare();
     solver.solve();
     integratePositions(state_, springs_.kernels(), h);
+    moveKinematic(h);
+    rigid_.relax(state_);
     solver.relax();
     solver.finish();
 }
@@ -114,6 +125,7 @@ void World::report()
     touching_.clear();
     for (const ContactPoint& c : contacts_.points) reportContact(c);
     for (const ContactPoint& c : ended_) reportContact(c);
+    rigid_.report(state_, reports_, touching_);
     std::sort(touching_.begin(), touching_.end());
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());

@@ -1,0 +1,258 @@
+#include "joint.hpp"
+
+#include <cmath>
+
+namespace jet::physics {
+
+Softness<double> softnessOf(double hertz, double dampingRatio, double h)
+{
+    if (!(hertz > 0)) return {0, 1, 0};
+    const double omega = 2 * kPi * hertz;
+    const double a1 = 2 * dampingRatio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+    return {omega / a1, a2 * a3, a3};
+}
+
+template <class Real>
+void JointRow<Real>::apply(BodyState<Real>& stateA, BodyState<Real>& stateB, Real p) const
+{
+    if (a != 0) {
+        stateA.velocityX += stateA.invMass * ax * p, stateA.velocityY += stateA.invMass * ay * p;
+        stateA.omega += stateA.invInertia * angularA * p;
+    }
+    if (b != 0) {
+        stateB.velocityX += stateB.invMass * bx * p, stateB.velocityY += stateB.invMass * by * p;
+        stateB.omega += stateB.invInertia * angularB * p;
+    }
+}
+
+template <class Real>
+void JointRow<Real>::warm(BodyState<Real>* bodies) const
+{
+    apply(bodies[a], bodies[b], impulse);
+}
+
+template <class Real>
+void JointRow<Real>::solve(BodyState<Real>* bodies, const Softness<Real>& standard, Real inverseH, bool push)
+{
+    BodyState<Real>&stateA = bodies[a], &stateB = bodies[b];
+    const Real moving = ax * stateA.velocityX + ay * stateA.velocityY + angularA * stateA.omega +
+                        bx * stateB.velocityX + by * stateB.velocityY + angularB * stateB.omega;
+    const Real moved = ax * stateA.moveX + ay * stateA.moveY + angularA * stateA.turn + bx * stateB.moveX +
+                       by * stateB.moveY + angularB * stateB.turn;
+    const Real now = error + moved;
+    Real bias = -speed, massScale = 1, impulseScale = 0;
+    if (limit && now > 0) {
+        bias = now * inverseH;
+    } else if (!velocityOnly && (push || soft)) {
+        const Softness<Real>& s = soft ? spring : standard;
+        bias = s.biasRate * now, massScale = s.massScale, impulseScale = s.impulseScale;
+    }
+    const Real wanted = -mass * massScale * (moving + bias) - impulseScale * impulse;
+    const Real total = std::clamp(impulse + wanted, least, most);
+    const Real change = total - impulse;
+    impulse = total;
+    apply(stateA, stateB, change);
+}
+
+template struct JointRow<float>;
+template struct JointRow<double>;
+
+JointFrame frameOf(const Joint& joint, const State& state, const std::vector<RigidBody>& bodies)
+{
+    JointFrame f;
+    const auto place = [&](Index body, const Vec2& local, Vec2& arm, Vec2& point) {
+        if (body == 0) {
+            arm = Vec2(0, 0), point = local;
+            return 0.0;
+        }
+        const Index node = bodies[body].node;
+        arm = rotated(state.nodes.rotation[node], local);
+        point = state.nodes.position[node] + arm;
+        return state.nodes.angle[node];
+    };
+    const double angleA = place(joint.a, joint.localA, f.armA, f.pointA);
+    const double angleB = place(joint.b, joint.localB, f.armB, f.pointB);
+    f.angle = angleB - angleA - joint.restAngle;
+    f.axis = joint.a == 0 ? joint.localAxis : rotated(state.nodes.rotation[bodies[joint.a].node], joint.localAxis);
+    return f;
+}
+
+namespace {
+
+constexpr double kUnlimited = 1e30;
+
+/// Builds rows of one joint; each has a slot in which its impulse is kept from step to step.
+template <class Real>
+class RowMaker {
+public:
+    RowMaker(const Joint& joint, Index index, const JointFrame& frame, const std::vector<BodyState<Real>>& states,
+             double h, std::vector<JointRow<Real>>& rows)
+        : joint_(joint), index_(index), frame_(frame), states_(states), h_(h), rows_(rows)
+    {
+    }
+
+    /// Speed of b's point against a's along `direction`, which turns with a when `carried`.
+    JointRow<Real>& along(const Vec2& direction, int slot, bool carried = false)
+    {
+        const Vec2 apart = frame_.pointB - frame_.pointA;
+        const double leverA = cross(frame_.armA, direction) + (carried ? cross(apart, direction) : 0);
+        return add(-direction, -leverA, direction, cross(frame_.armB, direction), slot);
+    }
+    JointRow<Real>& turning(int slot) { return add(Vec2(0, 0), -1, Vec2(0, 0), 1, slot); }
+    JointRow<Real>& add(const Vec2& ja, double angularA, const Vec2& jb, double angularB, int slot)
+    {
+        JointRow<Real> row;
+        row.a = joint_.a, row.b = joint_.b, row.joint = index_, row.slot = static_cast<Index>(slot);
+        row.ax = static_cast<Real>(ja.x()), row.ay = static_cast<Real>(ja.y()),
+        row.angularA = static_cast<Real>(angularA);
+        row.bx = static_cast<Real>(jb.x()), row.by = static_cast<Real>(jb.y()),
+        row.angularB = static_cast<Real>(angularB);
+        const BodyState<Real>&a = states_[joint_.a], &b = states_[joint_.b];
+        const Real inverse =
+            a.invMass * (row.ax * row.ax + row.ay * row.ay) + a.invInertia * row.angularA * row.angularA +
+            b.invMass * (row.bx * row.bx + row.by * row.by) + b.invInertia * row.angularB * row.angularB;
+        row.mass = inverse > 0 ? 1 / inverse : 0;
+        row.impulse = static_cast<Real>(joint_.impulse[slot]);
+        row.least = static_cast<Real>(-kUnlimited), row.most = static_cast<Real>(kUnlimited);
+        return rows_.emplace_back(row);
+    }
+    void makeSpring(JointRow<Real>& row, double hertz)
+    {
+        if (!(hertz > 0)) return;
+        const Softness<double> s = softnessOf(hertz, joint_.def.dampingRatio, h_);
+        row.soft = true;
+        row.spring = {static_cast<Real>(s.biasRate), static_cast<Real>(s.massScale), static_cast<Real>(s.impulseScale)};
+    }
+    void makeMotor(JointRow<Real>& row, double speed, double most)
+    {
+        row.velocityOnly = true;
+        row.speed = static_cast<Real>(speed);
+        row.most = static_cast<Real>(most * h_), row.least = -row.most;
+    }
+    /// `value` may not go below `lower` or above `upper`; two rows of the same direction.
+    template <class Make>
+    void limits(double value, Make&& make, int slot)
+    {
+        JointRow<Real>& low = make(slot);
+        low.limit = true;
+        low.error = static_cast<Real>(value - joint_.def.lower);
+        low.least = 0;
+        JointRow<Real>& high = make(slot + 1);
+        high.ax = -high.ax, high.ay = -high.ay, high.angularA = -high.angularA;
+        high.bx = -high.bx, high.by = -high.by, high.angularB = -high.angularB;
+        high.limit = true;
+        high.error = static_cast<Real>(joint_.def.upper - value);
+        high.least = 0;
+    }
+
+private:
+    const Joint& joint_;
+    Index index_;
+    const JointFrame& frame_;
+    const std::vector<BodyState<Real>>& states_;
+    double h_;
+    std::vector<JointRow<Real>>& rows_;
+};
+
+template <class Real>
+void addSlider(const Joint& joint, const JointFrame& f, RowMaker<Real>& make)
+{
+    const Vec2& axis = f.axis;
+    const JointDef& def = joint.def;
+    const Vec2 apart = f.pointB - f.pointA, across = perpendicular(axis);
+    make.along(across, 0, true).error = static_cast<Real>(apart.dot(across));
+    const double travel = apart.dot(axis);
+    if (def.kind == JointDef::Kind::Prismatic) {
+        make.turning(1).error = static_cast<Real>(f.angle);
+        if (def.driven) make.makeMotor(make.along(axis, 2, true), def.motorSpeed, def.maxForce);
+    } else {
+        if (def.hertz > 0) {
+            JointRow<Real>& spring = make.along(axis, 1, true);
+            spring.error = static_cast<Real>(travel);
+            make.makeSpring(spring, def.hertz);
+        }
+        if (def.driven) make.makeMotor(make.turning(2), def.motorSpeed, def.maxTorque);
+    }
+    if (def.limited)
+        make.limits(
+            travel, [&](int slot) -> JointRow<Real>& { return make.along(axis, slot, true); }, 3);
+}
+
+template <class Real>
+void addDistance(const Joint& joint, const JointFrame& f, RowMaker<Real>& make)
+{
+    const Vec2 apart = f.pointB - f.pointA;
+    const double length = apart.norm();
+    const Vec2 along = length > 1e-12 ? Vec2(apart / length) : Vec2(1, 0);
+    if (joint.def.kind == JointDef::Kind::Rope) {
+        JointRow<Real>& row = make.add(along, cross(f.armA, along), -along, -cross(f.armB, along), 0);
+        row.limit = true;
+        row.error = static_cast<Real>(joint.length - length);
+        row.least = 0;
+        return;
+    }
+    JointRow<Real>& row = make.along(along, 0);
+    row.error = static_cast<Real>(length - joint.length);
+    make.makeSpring(row, joint.def.hertz);
+}
+
+template <class Real>
+void addPulley(const Joint& joint, const JointFrame& f, RowMaker<Real>& make)
+{
+    const Vec2 ropeA = f.pointA - joint.def.groundA, ropeB = f.pointB - joint.def.groundB;
+    const double lengthA = ropeA.norm(), lengthB = ropeB.norm();
+    if (!(lengthA > 1e-9) || !(lengthB > 1e-9)) return;
+    const Vec2 ua = ropeA / lengthA, ub = joint.def.ratio * ropeB / lengthB;
+    make.add(ua, cross(f.armA, ua), ub, cross(f.armB, ub), 0).error =
+        static_cast<Real>(lengthA + joint.def.ratio * lengthB - joint.length);
+}
+
+}  // namespace
+
+template <class Real>
+void addRows(const Joint& joint, Index index, const JointFrame& f, const std::vector<BodyState<Real>>& states, double h,
+             std::vector<JointRow<Real>>& rows)
+{
+    RowMaker<Real> make(joint, index, f, states, h, rows);
+    const JointDef& def = joint.def;
+    const Vec2 apart = f.pointB - f.pointA;
+    switch (def.kind) {
+    case JointDef::Kind::Revolute:
+        if (def.driven) make.makeMotor(make.turning(2), def.motorSpeed, def.maxTorque);
+        if (def.limited)
+            make.limits(
+                f.angle, [&](int slot) -> JointRow<Real>& { return make.turning(slot); }, 3);
+        break;
+    case JointDef::Kind::Weld: {
+        JointRow<Real>& row = make.turning(2);
+        row.error = static_cast<Real>(f.angle);
+        make.makeSpring(row, def.hertz);
+        break;
+    }
+    case JointDef::Kind::Prismatic:
+    case JointDef::Kind::Wheel: addSlider(joint, f, make); break;
+    case JointDef::Kind::Distance:
+    case JointDef::Kind::Rope: addDistance(joint, f, make); break;
+    case JointDef::Kind::Motor:
+        make.makeMotor(make.along(Vec2(1, 0), 0), def.motorVelocity.x(), def.maxForce);
+        make.makeMotor(make.along(Vec2(0, 1), 1), def.motorVelocity.y(), def.maxForce);
+        make.makeMotor(make.turning(2), def.motorSpeed, def.maxTorque);
+        break;
+    case JointDef::Kind::Mouse:
+        for (int i = 0; i < 2; ++i) {
+            JointRow<Real>& row = make.along(i == 0 ? Vec2(1, 0) : Vec2(0, 1), i);
+            row.error = static_cast<Real>(apart[i]);
+            make.makeSpring(row, def.hertz > 0 ? def.hertz : 4);
+            row.most = static_cast<Real>(def.maxForce * h), row.least = -row.most;
+        }
+        break;
+    case JointDef::Kind::Pulley: addPulley(joint, f, make); break;
+    }
+}
+
+template void addRows<float>(const Joint&, Index, const JointFrame&, const std::vector<BodyState<float>>&, double,
+                             std::vector<JointRow<float>>&);
+template void addRows<double>(const Joint&, Index, const JointFrame&, const std::vector<BodyState<double>>&, double,
+                              std::vector<JointRow<double>>&);
+
+}  // namespace jet::physics

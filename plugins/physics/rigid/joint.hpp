@@ -1,0 +1,68 @@
+// Joints between rigid bodies and the background (SPEC PH7 and beyond).
+//
+// Each joint is at most one point-to-point constraint, solved in wide kernels, and a few rows. A row says: the speed
+// J v, with J = (jA, angularA, jB, angularB), shall be such that the error C decays; its impulse is limited. With the
+// frozen geometry of a step, C = C0 + J (moves since the start), and the effective mass is 1 / (J M⁻¹ Jᵀ).
+#pragma once
+
+#include "contact.hpp"
+#include "solver_data.hpp"
+
+#include <jet/physics.hpp>
+
+#include <vector>
+
+namespace jet::physics {
+
+template <class Real>
+struct JointRow {
+    Index a = 0, b = 0, joint = 0, slot = 0;
+    Real ax = 0, ay = 0, angularA = 0, bx = 0, by = 0, angularB = 0;
+    Real error = 0;             // units or radians at the start of the step
+    Real speed = 0;             // wanted, units / s or rad / s
+    Real least = 0, most = 0;   // impulse of a substep
+    bool soft = false;          // has a spring of its own
+    bool velocityOnly = false;  // motors
+    bool limit = false;         // one-sided: error may be positive
+    Softness<Real> spring;
+    Real mass = 0, impulse = 0;
+
+    /// Changes the velocities so that the row is met, with or without pushing errors out.
+    void solve(BodyState<Real>* bodies, const Softness<Real>& standard, Real inverseH, bool push);
+    void warm(BodyState<Real>* bodies) const;
+
+private:
+    void apply(BodyState<Real>& a, BodyState<Real>& b, Real impulse) const;
+};
+
+struct Joint {
+    JointDef def;
+    Index a = 0, b = 0;    // rigid bodies; 0: the background
+    Vec2 localA, localB;   // in the bodies' frames, from their centres; background: scene coordinates
+    Vec2 localAxis;        // in a's frame
+    double restAngle = 0;  // b's angle less a's at the time of adding
+    double length = 0;     // units
+    bool removed = false, broken = false;
+    // Of the last substep: the point's two, then the rows'. Warm starting.
+    double impulse[6] = {0, 0, 0, 0, 0, 0};
+    JointState state;
+
+    bool lives() const { return !removed && !broken; }
+    bool hasPoint() const { return def.kind == JointDef::Kind::Revolute || def.kind == JointDef::Kind::Weld; }
+};
+
+struct JointFrame {
+    Vec2 armA, armB, pointA, pointB;  // scene directions; scene coordinates
+    Vec2 axis;                        // scene direction, turns with a
+    double angle = 0;                 // radians since the time of adding
+};
+JointFrame frameOf(const Joint&, const State&, const std::vector<RigidBody>&);
+
+/// Appends the joint's rows for substeps of h.
+template <class Real>
+void addRows(const Joint&, Index index, const JointFrame&, const std::vector<BodyState<Real>>&, double h,
+             std::vector<JointRow<Real>>&);
+
+Softness<double> softnessOf(double hertz, double dampingRatio, double h);
+
+}  // namespace jet::physics

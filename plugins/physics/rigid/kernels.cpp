@@ -1,0 +1,25 @@
+// Which kernels the processor can run.
+#include "solver_data.hpp"
+
+namespace jet::physics {
+
+bool hasAvx2() { return __builtin_cpu_supports("avx2") != 0; }
+
+namespace {
+
+bool wide(KernelChoice choice) { return choice != KernelChoice::Sse2 && hasAvx2(); }
+
+}  // namespace
+
+template <>
+const Kernels<float>& kernels<float>(KernelChoice choice)
+{
+    return wide(choice) ? avx2::singles : sse2::singles;
+}
+template <>
+const Kernels<double>& kernels<double>(KernelChoice choice)
+{
+    return wide(choice) ? avx2::doubles : sse2::doubles;
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,346 @@
+// The solver's kernels, compiled once for each instruction set: kernels_sse2.cpp and kernels_avx2.cpp include this in a
+// namespace of their own. "Soft Step" (Catto 2024, https://box2d.org/posts/2024/02/solver2d/): see solver_data.hpp.
+
+namespace {
+
+template <class Real>
+using Mask = typename LaneTypes<Real>::Mask;
+
+template <class Real>
+JET_INLINE Lanes<Real> all(Real value)
+{
+    return Lanes<Real>{} + value;
+}
+template <class Real>
+JET_INLINE Lanes<Real> choose(const Mask<Real>& mask, const Lanes<Real>& yes, const Lanes<Real>& no)
+{
+    return (Lanes<Real>)((mask & (Mask<Real>)yes) | (~mask & (Mask<Real>)no));
+}
+template <class Values>
+JET_INLINE Values least(const Values& a, const Values& b)
+{
+    return a < b ? a : b;
+}
+template <class Values>
+JET_INLINE Values most(const Values& a, const Values& b)
+{
+    return a > b ? a : b;
+}
+
+/// The states of a group's bodies, one value of each lane together.
+template <class Real>
+struct BodyLanes {
+    Lanes<Real> velocityX, velocityY, omega, invMass;
+};
+template <class Real>
+struct MoveLanes {
+    Lanes<Real> moveX, moveY, turn, invInertia;
+};
+
+typedef float Four __attribute__((vector_size(16)));
+
+/// Rows of four values of eight bodies to four rows of eight: within the halves of a register, as AVX2 shuffles best.
+JET_INLINE void transpose(const Lanes<float> (&c)[4], Lanes<float>& x, Lanes<float>& y, Lanes<float>& z,
+                          Lanes<float>& w)
+{
+    const Lanes<float> t0 = __builtin_shufflevector(c[0], c[1], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t1 = __builtin_shufflevector(c[0], c[1], 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes<float> t2 = __builtin_shufflevector(c[2], c[3], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t3 = __builtin_shufflevector(c[2], c[3], 2, 10, 3, 11, 6, 14, 7, 15);
+    x = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
+    y = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
+    z = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
+    w = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+JET_INLINE void gather(const BodyState<float>* bodies, const std::int32_t* index, std::size_t half, Lanes<float>& x,
+                       Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
+{
+    Lanes<float> c[4];
+    for (int i = 0; i < 4; ++i) {
+        const Four low = reinterpret_cast<const Four*>(&bodies[index[i]])[half];
+        const Four high = reinterpret_cast<const Four*>(&bodies[index[i + 4]])[half];
+        c[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+    transpose(c, x, y, z, w);
+}
+
+JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, const BodyLanes<float>& s)
+{
+    const Lanes<float> t0 = __builtin_shufflevector(s.velocityX, s.velocityY, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t1 = __builtin_shufflevector(s.velocityX, s.velocityY, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes<float> t2 = __builtin_shufflevector(s.omega, s.invMass, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t3 = __builtin_shufflevector(s.omega, s.invMass, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes<float> c[4] = {__builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13),
+                               __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15),
+                               __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13),
+                               __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15)};
+    for (int i = 0; i < 4; ++i) {
+        if (index[i] != 0)
+            *reinterpret_cast<Four*>(&bodies[index[i]]) = __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3);
+        if (index[i + 4] != 0)
+            *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
+    }
+}
+
+JET_INLINE void gather(const BodyState<double>* bodies, const std::int32_t* index, std::size_t half, Lanes<double>& x,
+                       Lanes<double>& y, Lanes<double>& z, Lanes<double>& w)
+{
+    const Lanes<double> c0 = reinterpret_cast<const Lanes<double>*>(&bodies[index[0]])[half];
+    const Lanes<double> c1 = reinterpret_cast<const Lanes<double>*>(&bodies[index[1]])[half];
+    const Lanes<double> c2 = reinterpret_cast<const Lanes<double>*>(&bodies[index[2]])[half];
+    const Lanes<double> c3 = reinterpret_cast<const Lanes<double>*>(&bodies[index[3]])[half];
+    const Lanes<double> t0 = __builtin_shufflevector(c0, c1, 0, 4, 2, 6),
+                        t1 = __builtin_shufflevector(c0, c1, 1, 5, 3, 7);
+    const Lanes<double> t2 = __builtin_shufflevector(c2, c3, 0, 4, 2, 6),
+                        t3 = __builtin_shufflevector(c2, c3, 1, 5, 3, 7);
+    x = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
+    y = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
+    z = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
+    w = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+}
+
+JET_INLINE void scatter(BodyState<double>* bodies, const std::int32_t* index, const BodyLanes<double>& s)
+{
+    for (int i = 0; i < 4; ++i) {
+        if (index[i] == 0) continue;
+        BodyState<double>& body = bodies[index[i]];
+        body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.omega = s.omega[i];
+    }
+}
+
+template <class Real>
+JET_INLINE BodyLanes<Real> velocities(const BodyState<Real>* bodies, const std::int32_t* index)
+{
+    BodyLanes<Real> s;
+    gather(bodies, index, 0, s.velocityX, s.velocityY, s.omega, s.invMass);
+    return s;
+}
+template <class Real>
+JET_INLINE MoveLanes<Real> moves(const BodyState<Real>* bodies, const std::int32_t* index)
+{
+    MoveLanes<Real> s;
+    gather(bodies, index, 1, s.moveX, s.moveY, s.turn, s.invInertia);
+    return s;
+}
+
+/// An impulse along a direction with its levers; on B, and against it on A.
+template <class Real>
+JET_INLINE void push(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& invInertiaA,
+                     const Lanes<Real>& invInertiaB, const Lanes<Real>& x, const Lanes<Real>& y,
+                     const Lanes<Real>& leverA, const Lanes<Real>& leverB, const Lanes<Real>& impulse)
+{
+    const Lanes<Real> px = impulse * x, py = impulse * y;
+    a.velocityX -= a.invMass * px, a.velocityY -= a.invMass * py, a.omega -= invInertiaA * (leverA * impulse);
+    b.velocityX += b.invMass * px, b.velocityY += b.invMass * py, b.omega += invInertiaB * (leverB * impulse);
+}
+
+template <class Real>
+JET_INLINE Lanes<Real> speedAlong(const BodyLanes<Real>& a, const BodyLanes<Real>& b, const Lanes<Real>& x,
+                                  const Lanes<Real>& y, const Lanes<Real>& leverA, const Lanes<Real>& leverB)
+{
+    return x * (b.velocityX - a.velocityX) + y * (b.velocityY - a.velocityY) + leverB * b.omega - leverA * a.omega;
+}
+
+template <class Real>
+void warmContacts(BodyState<Real>* bodies, const ContactLanes<Real>* groups, const FrictionLanes<Real>* frictions,
+                  std::size_t count)
+{
+    for (std::size_t g = 0; g < count; ++g) {
+        const ContactLanes<Real>& c = groups[g];
+        const FrictionLanes<Real>& f = frictions[g];
+        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
+        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
+        for (int k = 0; k < 2; ++k) {
+            const auto& p = c.points[k];
+            const auto& q = f.points[k];
+            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, p.impulse);
+            push<Real>(a, b, moveA.invInertia, moveB.invInertia, -c.normalY, c.normalX, q.leverA, q.leverB, q.impulse);
+        }
+        scatter(bodies, c.a, a);
+        scatter(bodies, c.b, b);
+    }
+}
+
+template <class Real>
+void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size_t count,
+                   const StepConstants<Real>& step)
+{
+    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
+    for (std::size_t g = 0; g < count; ++g) {
+        ContactLanes<Real>& c = groups[g];
+        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
+        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
+        const Mask<Real> still = (a.invMass == zero) | (b.invMass == zero);
+        const Lanes<Real> rate = choose<Real>(still, all(step.still.biasRate), all(step.moving.biasRate));
+        const Lanes<Real> massScale = choose<Real>(still, all(step.still.massScale), all(step.moving.massScale));
+        const Lanes<Real> impulseScale =
+            choose<Real>(still, all(step.still.impulseScale), all(step.moving.impulseScale));
+        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
+        for (auto& p : c.points) {
+            const Lanes<Real> s = p.separation + moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
+            const Mask<Real> apart = s > zero;
+            const Lanes<Real> bias = choose<Real>(apart, s * step.inverseH, most(rate * s, -c.mostPush));
+            const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
+            const Lanes<Real> wanted = -p.mass * choose<Real>(apart, one, massScale) * (speed + bias) -
+                                       choose<Real>(apart, zero, impulseScale) * p.impulse;
+            const Lanes<Real> impulse = most(p.impulse + wanted, zero);
+            const Lanes<Real> change = impulse - p.impulse;
+            p.impulse = impulse;
+            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+        }
+        scatter(bodies, c.a, a);
+        scatter(bodies, c.b, b);
+    }
+}
+
+template <class Real>
+void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, FrictionLanes<Real>* frictions,
+                   std::size_t count, const StepConstants<Real>& step)
+{
+    const Lanes<Real> zero = all<Real>(0);
+    for (std::size_t g = 0; g < count; ++g) {
+        ContactLanes<Real>& c = groups[g];
+        FrictionLanes<Real>& f = frictions[g];
+        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
+        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
+        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
+        const Lanes<Real> tangentX = -c.normalY, tangentY = c.normalX;
+        for (int k = 0; k < 2; ++k) {
+            auto& q = f.points[k];
+            const Lanes<Real> slide = speedAlong<Real>(a, b, tangentX, tangentY, q.leverA, q.leverB);
+            const Lanes<Real> limit = f.friction * c.points[k].impulse;
+            const Lanes<Real> impulse = least(most(q.impulse - q.mass * slide, -limit), limit);
+            const Lanes<Real> change = impulse - q.impulse;
+            q.impulse = impulse;
+            push<Real>(a, b, moveA.invInertia, moveB.invInertia, tangentX, tangentY, q.leverA, q.leverB, change);
+        }
+        for (auto& p : c.points) {
+            const Lanes<Real> s = p.separation + moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
+            const Lanes<Real> bias = most(s, zero) * step.inverseH;
+            const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
+            const Lanes<Real> impulse = most(p.impulse - p.mass * (speed + bias), zero);
+            const Lanes<Real> change = impulse - p.impulse;
+            p.impulse = impulse;
+            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+        }
+        scatter(bodies, c.a, a);
+        scatter(bodies, c.b, b);
+    }
+}
+
+template <class Real>
+void noteImpulses(const ContactLanes<Real>* groups, BounceLanes<Real>* bounces, std::size_t count)
+{
+    for (std::size_t g = 0; g < count; ++g)
+        for (int k = 0; k < 2; ++k) bounces[g].most[k] = most(bounces[g].most[k], groups[g].points[k].impulse);
+}
+
+template <class Real>
+void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, BounceLanes<Real>* bounces, std::size_t count,
+                    const StepConstants<Real>& step)
+{
+    const Lanes<Real> zero = all<Real>(0);
+    for (std::size_t g = 0; g < count; ++g) {
+        ContactLanes<Real>& c = groups[g];
+        BounceLanes<Real>& r = bounces[g];
+        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
+        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
+        for (int k = 0; k < 2; ++k) {
+            auto& p = c.points[k];
+            const Mask<Real> bounces_ = (r.restitution > zero) & (r.approach[k] < -step.restSpeed) & (r.most[k] > zero);
+            const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
+            const Lanes<Real> wanted = most(p.impulse - p.mass * (speed + r.restitution * r.approach[k]), zero);
+            const Lanes<Real> change = choose<Real>(bounces_, wanted - p.impulse, zero);
+            p.impulse += change;
+            r.most[k] = most(r.most[k], p.impulse);
+            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+        }
+        scatter(bodies, c.a, a);
+        scatter(bodies, c.b, b);
+    }
+}
+
+template <class Real>
+JET_INLINE void pull(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& invInertiaA,
+                     const Lanes<Real>& invInertiaB, const JointLanes<Real>& j, const Lanes<Real>& x,
+                     const Lanes<Real>& y)
+{
+    a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y;
+    a.omega -= invInertiaA * (j.armAX * y - j.armAY * x);
+    b.velocityX += b.invMass * x, b.velocityY += b.invMass * y;
+    b.omega += invInertiaB * (j.armBX * y - j.armBY * x);
+}
+
+template <class Real>
+void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::size_t count)
+{
+    for (std::size_t g = 0; g < count; ++g) {
+        const JointLanes<Real>& j = groups[g];
+        BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
+        const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
+        pull<Real>(a, b, moveA.invInertia, moveB.invInertia, j, j.impulseX, j.impulseY);
+        scatter(bodies, j.a, a);
+        scatter(bodies, j.b, b);
+    }
+}
+
+template <class Real>
+void solveJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const StepConstants<Real>& step,
+                 bool pushes)
+{
+    const Lanes<Real> rate = all(pushes ? step.joint.biasRate : Real(0));
+    const Lanes<Real> massScale = all(pushes ? step.joint.massScale : Real(1));
+    const Lanes<Real> impulseScale = all(pushes ? step.joint.impulseScale : Real(0));
+    for (std::size_t g = 0; g < count; ++g) {
+        JointLanes<Real>& j = groups[g];
+        BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
+        const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
+        const Lanes<Real> errorX = j.errorX + (moveB.moveX - moveA.moveX) - moveB.turn * j.armBY + moveA.turn * j.armAY;
+        const Lanes<Real> errorY = j.errorY + (moveB.moveY - moveA.moveY) + moveB.turn * j.armBX - moveA.turn * j.armAX;
+        const Lanes<Real> speedX = b.velocityX - a.velocityX - b.omega * j.armBY + a.omega * j.armAY + rate * errorX;
+        const Lanes<Real> speedY = b.velocityY - a.velocityY + b.omega * j.armBX - a.omega * j.armAX + rate * errorY;
+        const Lanes<Real> x = -massScale * (j.inverseXX * speedX + j.inverseXY * speedY) - impulseScale * j.impulseX;
+        const Lanes<Real> y = -massScale * (j.inverseXY * speedX + j.inverseYY * speedY) - impulseScale * j.impulseY;
+        j.impulseX += x, j.impulseY += y;
+        pull<Real>(a, b, moveA.invInertia, moveB.invInertia, j, x, y);
+        scatter(bodies, j.a, a);
+        scatter(bodies, j.b, b);
+    }
+}
+
+template <class Real>
+void integrateVelocities(BodyState<Real>* bodies, BodyPush<Real>* pushes, std::size_t count, Real h)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        BodyState<Real>& s = bodies[i];
+        BodyPush<Real>& p = pushes[i];
+        p.warmX += s.velocityX - p.beforeX, p.warmY += s.velocityY - p.beforeY, p.warmW += s.omega - p.beforeW;
+        s.velocityX = p.linearKept * (s.velocityX + h * p.accelerationX) + p.warmX;
+        s.velocityY = p.linearKept * (s.velocityY + h * p.accelerationY) + p.warmY;
+        s.omega = p.angularKept * (s.omega + h * p.accelerationW) + p.warmW;
+        p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.omega;
+    }
+}
+
+template <class Real>
+void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        BodyState<Real>& s = bodies[i];
+        s.moveX += h * s.velocityX, s.moveY += h * s.velocityY, s.turn += h * s.omega;
+    }
+}
+
+template <class Real>
+constexpr Kernels<Real> table()
+{
+    return {warmContacts<Real>,  warmJoints<Real>,          solveContacts<Real>,
+            relaxContacts<Real>, noteImpulses<Real>,        bounceContacts<Real>,
+            solveJoints<Real>,   integrateVelocities<Real>, integratePositions<Real>};
+}
+
+}  // namespace
+
+extern const Kernels<float> singles = table<float>();
+extern const Kernels<double> doubles = table<double>();

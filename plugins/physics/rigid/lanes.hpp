@@ -1,0 +1,34 @@
+// Eight floats or four doubles worked on at once, by the compiler's vector types: the same source makes SSE2 pairs and
+// AVX2 registers, and the same bits from both (no fused multiply-add, no reassociation).
+//
+// Only for the kernels' own files: everything is inlined there, so that no function compiled for AVX2 is shared.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#define JET_INLINE inline __attribute__((always_inline))
+
+namespace jet::physics {
+
+template <class Real>
+inline constexpr int kLanes = 32 / sizeof(Real);
+
+template <class Real>
+struct LaneTypes;
+template <>
+struct LaneTypes<float> {
+    typedef float Values __attribute__((vector_size(32)));
+    typedef std::int32_t Mask __attribute__((vector_size(32)));
+};
+template <>
+struct LaneTypes<double> {
+    typedef double Values __attribute__((vector_size(32)));
+    typedef std::int64_t Mask __attribute__((vector_size(32)));
+};
+template <class Real>
+using Lanes = typename LaneTypes<Real>::Values;
+
+}  // namespace jet::physics

@@ -1,0 +1,80 @@
+// The broad phase: which parts may meet? Boxes with room to move in are swept in the order of their left sides, eight
+// at a time; as long as every part keeps within its box nothing is done. Measured against a dynamic tree this costs a
+// third, because neighbours in a pile are neighbours in the sweep (see docs/decisions/0011).
+#pragma once
+
+#include "contact.hpp"
+
+#include <vector>
+
+namespace jet::physics {
+
+/// A set of 64-bit keys other than ~0, with open addressing.
+class KeySet {
+public:
+    /// False when it was there already.
+    bool insert(std::uint64_t key);
+    bool contains(std::uint64_t key) const;
+    void erase(std::uint64_t key);
+    void clear();
+    std::size_t bytes() const { return slots_.capacity() * sizeof(std::uint64_t); }
+
+private:
+    std::size_t slotOf(std::uint64_t key) const;
+    void grow();
+
+    std::vector<std::uint64_t> slots_;
+    std::size_t count_ = 0;
+};
+
+class PairSweep {
+public:
+    void resize(std::size_t parts);
+    FatBox& box(Index part) { return boxes_[part]; }
+    const FatBox& box(Index part) const { return boxes_[part]; }
+    void markMoved(Index part) { moved_[part] = 1, anyMoved_ = true; }
+    bool anyMoved() const { return anyMoved_; }
+
+    /// Calls found(a, b), a < b, for each pair of boxes that meet and of which one was marked; then unmarks all.
+    template <class Found>
+    void sweep(Found&& found)
+    {
+        sort();
+        const std::size_t count = order_.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const float right = maxX_[i], low = minY_[i], high = maxY_[i];
+            const bool moved = sortedMoved_[i] != 0;
+            for (std::size_t j = i + 1; j < count; j += 8) {
+                // The lists are padded by eight boxes at infinity.
+                unsigned hits = 0;
+                for (std::size_t k = 0; k < 8; ++k)
+                    hits |= static_cast<unsigned>((minX_[j + k] <= right) & (minY_[j + k] <= high) &
+                                                  (maxY_[j + k] >= low) & (moved | sortedMoved_[j + k]))
+                            << k;
+                for (; hits != 0; hits &= hits - 1) {
+                    const std::size_t k = j + static_cast<std::size_t>(__builtin_ctz(hits));
+                    found(std::min(order_[i], order_[k]), std::max(order_[i], order_[k]));
+                }
+                if (!(minX_[j + 7] <= right)) break;
+            }
+        }
+        finish();
+    }
+
+    std::vector<FatBox>& boxes() { return boxes_; }
+    std::size_t bytes() const;
+
+private:
+    void sort();
+    void finish();
+
+    std::vector<FatBox> boxes_;
+    std::vector<std::uint8_t> moved_;
+    bool anyMoved_ = false;
+    std::vector<Index> order_;  // parts by left side, then by index
+    std::vector<std::uint64_t> keys_;
+    std::vector<float> minX_, minY_, maxX_, maxY_;  // in that order
+    std::vector<std::uint8_t> sortedMoved_;
+};
+
+}  // namespace jet::physics

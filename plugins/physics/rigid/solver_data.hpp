@@ -1,0 +1,125 @@
+// What the solver's kernels work on: structures of arrays in groups of as many constraints as a register has lanes.
+// The bodies of a group's lanes are all different (graph colouring), so that lanes never wait for each other.
+//
+// Derivation. Within a step, anchors and normals are frozen. A contact point with levers rA, rB and normal n (from A to
+// B) has the relative speed  vn = n·(vB - vA) + (rB × n) wB - (rA × n) wA,  and its separation after some substeps is
+// s = s0 + n·(dB - dA) + (rB × n) aB - (rA × n) aA  with the moves d and turns a since the start of the step. The
+// effective mass is 1 / (mA + mB + iA (rA × n)² + iB (rB × n)²), with inverse masses m and inverse moments i. So a
+// point needs two levers, not four coordinates, and no rotation during the substeps.
+#pragma once
+
+#include "lanes.hpp"
+
+namespace jet::physics {
+
+/// Hot state of a body: all a kernel reads or writes of it, in one cache line. Body 0 stands for all that never moves.
+template <class Real>
+struct alignas(8 * sizeof(Real)) BodyState {
+    Real velocityX = 0, velocityY = 0;  // units / s
+    Real omega = 0;                     // rad / s
+    Real invMass = 0;                   // 1 / mass
+    Real moveX = 0, moveY = 0;          // units since the start of the step
+    Real turn = 0;                      // radians since the start of the step
+    Real invInertia = 0;                // 1 / (mass units²)
+};
+
+/// What the body passes of a substep need beside the state.
+template <class Real>
+struct BodyPush {
+    Real accelerationX = 0, accelerationY = 0, accelerationW = 0;  // of gravity, forces, torques
+    Real linearKept = 1, angularKept = 1;                          // velocity left by damping after a substep
+    // Change of velocity by all accumulated impulses: warm starting without visiting the constraints again.
+    Real warmX = 0, warmY = 0, warmW = 0;
+    Real beforeX = 0, beforeY = 0, beforeW = 0;  // velocity after warm starting
+};
+
+template <class Real>
+struct alignas(32) ContactLanes {
+    std::int32_t a[kLanes<Real>], b[kLanes<Real>];  // bodies; 0: never moves
+    Lanes<Real> normalX, normalY;                   // from A to B
+    Lanes<Real> mostPush;                           // units / s that overlap is pushed out with at most
+    struct Point {
+        Lanes<Real> leverA, leverB;  // r × n
+        Lanes<Real> separation;      // at the start of the step, plus slop
+        Lanes<Real> mass;            // 0: no such point
+        Lanes<Real> impulse;         // accumulated, of a substep
+    } points[2];
+};
+
+/// Read by the relax pass only.
+template <class Real>
+struct alignas(32) FrictionLanes {
+    Lanes<Real> friction;
+    struct Point {
+        Lanes<Real> leverA, leverB;  // r × tangent
+        Lanes<Real> mass;
+        Lanes<Real> impulse;
+    } points[2];
+};
+
+/// Read by the last pass of a step only, and kept only by groups in which something bounces.
+template <class Real>
+struct alignas(32) BounceLanes {
+    Lanes<Real> restitution;
+    Lanes<Real> approach[2];  // relative normal speed at the start of the step; negative: approaching
+    Lanes<Real> most[2];      // greatest impulse of the step
+};
+
+/// A point of A held to a point of B: the core of revolute, weld and similar joints.
+template <class Real>
+struct alignas(32) JointLanes {
+    std::int32_t a[kLanes<Real>], b[kLanes<Real>];
+    Lanes<Real> armAX, armAY, armBX, armBY;  // from the centres, frozen
+    Lanes<Real> errorX, errorY;              // at the start of the step
+    Lanes<Real> inverseXX, inverseXY, inverseYY;
+    Lanes<Real> impulseX, impulseY;
+};
+
+/// A damped spring of some frequency, integrated implicitly over h, as a bias rate and two scales of the impulse.
+template <class Real>
+struct Softness {
+    Real biasRate = 0, massScale = 1, impulseScale = 0;
+};
+
+template <class Real>
+struct StepConstants {
+    Real h = 0, inverseH = 0;             // s, 1 / s
+    Softness<Real> moving, still, joint;  // contacts between moving bodies, with one that does not move, joints
+    Real restSpeed = 0;                   // units / s; slower hits do not bounce
+};
+
+template <class Real>
+struct Kernels {
+    /// Adds the accumulated impulses of contacts to the bodies' velocities.
+    void (*warmContacts)(BodyState<Real>*, const ContactLanes<Real>*, const FrictionLanes<Real>*, std::size_t);
+    void (*warmJoints)(BodyState<Real>*, const JointLanes<Real>*, std::size_t);
+    /// Pushes out of overlaps: normals only.
+    void (*solveContacts)(BodyState<Real>*, ContactLanes<Real>*, std::size_t, const StepConstants<Real>&);
+    /// Takes the pushing velocity back out; friction.
+    void (*relaxContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, std::size_t,
+                          const StepConstants<Real>&);
+    void (*noteImpulses)(const ContactLanes<Real>*, BounceLanes<Real>*, std::size_t);
+    void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, BounceLanes<Real>*, std::size_t,
+                           const StepConstants<Real>&);
+    void (*solveJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&, bool push);
+    /// Takes up the impulses of the last substep, then forces, damping and warm starting.
+    void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, Real h);
+    void (*integratePositions)(BodyState<Real>*, std::size_t, Real h);
+};
+
+/// The kernels for this processor, or those asked for where it has them.
+enum class KernelChoice : std::uint8_t { Best, Sse2, Avx2 };
+template <class Real>
+const Kernels<Real>& kernels(KernelChoice);
+bool hasAvx2();
+
+namespace sse2 {
+extern const Kernels<float> singles;
+extern const Kernels<double> doubles;
+}  // namespace sse2
+namespace avx2 {
+extern const Kernels<float> singles;
+extern const Kernels<double> doubles;
+}  // namespace avx2
+
+}  // namespace jet::physics

@@ -1,0 +1,382 @@
+#include "stage.hpp"
+
+#include "../validation.hpp"
+
+#include <chrono>
+#include <tuple>
+
+namespace jet::physics {
+
+namespace {
+
+constexpr std::size_t kSmallWorld = 512;  // bodies: worlds up to here are solved in double precision
+constexpr double kContactRate = 480;      // substeps a second of small worlds
+constexpr int kLargeSubsteps = 4;
+constexpr float kHitSmall = 0.08F, kHitLarge = 0.6F;  // lengths a substep that make a hit
+constexpr int kHitPasses = 12;
+
+/// The ring without points that add nothing, if it is convex and has few corners; else empty.
+std::vector<Vec2> simpleRing(const std::vector<Vec2>& ring)
+{
+    std::vector<Vec2> at = ring;
+    double extent = 0;
+    for (const Vec2& p : at) extent = std::max(extent, (p - at[0]).norm());
+    const double least = 1e-7 * extent;
+    for (std::size_t i = 0; i < at.size() && at.size() > 3;) {
+        const Vec2& before = at[(i + at.size() - 1) % at.size()];
+        const Vec2& next = at[(i + 1) % at.size()];
+        const Vec2 along = next - before;
+        const double off = along.norm() > least ? std::abs(cross(along, at[i] - before)) / along.norm() : 0;
+        if ((at[i] - before).norm() <= least || (off <= least && (at[i] - before).dot(next - at[i]) > 0)) {
+            at.erase(at.begin() + static_cast<std::ptrdiff_t>(i));
+            i = i > 0 ? i - 1 : 0;
+        } else {
+            ++i;
+        }
+    }
+    if (at.size() < 3 || at.size() > kMostCorners) return {};
+    double sign = 0, turning = 0, area = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const Vec2 in = at[(i + 1) % at.size()] - at[i], out = at[(i + 2) % at.size()] - at[(i + 1) % at.size()];
+        const double bend = cross(in, out);
+        if (!(in.norm() > least) || bend * sign < 0 || !(std::abs(bend) > 1e-6 * in.norm() * out.norm())) return {};
+        sign = bend;
+        turning += angleOf(bend, in.dot(out));
+        area += 0.5 * cross(at[i] - at[0], at[(i + 1) % at.size()] - at[0]);
+    }
+    if (std::abs(turning) > 2 * kPi + 0.1 || std::abs(area) < 1e-4 * extent * extent) return {};
+    return at;
+}
+
+std::vector<ShapeDef> partsOf(const RigidBodyDef& def)
+{
+    if (!def.borders.empty()) {
+        if (def.borders.size() != 1 || !def.shapes.empty()) return {};
+        ShapeDef shape;
+        shape.points = simpleRing(def.borders[0]);
+        if (shape.points.empty()) return {};
+        return {shape};
+    }
+    return def.shapes;
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
+{
+    const std::vector<ShapeDef> shapes = partsOf(def);
+    if (shapes.empty()) return false;
+    const Index node = state.bodies[handle].nodes.first;
+    RigidBody body;
+    body.node = node, body.handle = handle;
+    body.material = def.common.material;
+    body.group = def.common.group, body.layer = def.common.layer, body.mask = def.common.mask;
+    body.moves = state.nodes.invMass[node] > 0;
+    body.kinematic = def.common.kinematic, body.sensor = def.common.sensor;
+    if (def.common.oneSided.norm() > 0) {
+        const Vec2 up = def.common.oneSided.normalized();
+        body.oneSidedX = static_cast<float>(up.x()), body.oneSidedY = static_cast<float>(up.y());
+    }
+    bodyOf_.resize(std::max<std::size_t>(bodyOf_.size(), handle + 1), 0);
+    bodyOf_[handle] = collider_.addBody(body);
+    for (const ShapeDef& shape : shapes) {
+        std::vector<Vec2> corners = shape.points;
+        for (Vec2& at : corners) at -= state.nodes.position[node];
+        collider_.addPart(makePart(corners.data(), static_cast<int>(corners.size()),
+                                   shape.kind == ShapeDef::Kind::Polygon ? 0 : shape.radius));
+    }
+    return true;
+}
+
+Index RigidStage::addJoint(const State& state, const JointDef& def)
+{
+    Joint joint;
+    joint.def = def;
+    const auto attach = [&](const Anchor& anchor, Index& body, Vec2& local) {
+        local = anchor.point;
+        if (anchor.body == kNoHandle) return 0.0;
+        body = bodyOf_[anchor.body];
+        const Index node = collider_.bodies()[body].node;
+        local = unrotated(state.nodes.rotation[node], anchor.point - state.nodes.position[node]);
+        return state.nodes.angle[node];
+    };
+    const double angleA = attach(def.a, joint.a, joint.localA), angleB = attach(def.b, joint.b, joint.localB);
+    joint.restAngle = angleB - angleA;
+    const double axisLength = def.axis.norm();
+    const Vec2 axis = axisLength > 0 ? Vec2(def.axis / axisLength) : Vec2(1, 0);
+    joint.localAxis = joint.a == 0 ? axis : unrotated(state.nodes.rotation[collider_.bodies()[joint.a].node], axis);
+    joint.length = def.length;
+    if (def.kind == JointDef::Kind::Pulley) {
+        joint.length = (def.a.point - def.groundA).norm() + def.ratio * (def.b.point - def.groundB).norm();
+    } else if (def.length < 0) {
+        joint.length = (def.b.point - def.a.point).norm();
+    }
+    if (!def.collide && joint.a != 0 && joint.b != 0) collider_.exclude(joint.a, joint.b);
+    joints_.push_back(joint);
+    return static_cast<Index>(joints_.size() - 1);
+}
+
+void RigidStage::removeJoint(Index index)
+{
+    Joint& joint = joints_[index];
+    joint.removed = true;
+    if (!joint.def.collide) collider_.include(joint.a, joint.b);
+}
+
+void RigidStage::find(const State& state, const WorldSettings& settings, double dt, StepStats& stats)
+{
+    if (settings.findCollisions) {
+        collider_.find(state, settings, dt, stats);
+    } else {
+        collider_.forgetPairs();
+    }
+}
+
+StepShape RigidStage::shapeOf(const WorldSettings& settings, double dt, bool large) const
+{
+    StepShape shape;
+    shape.substeps = settings.substeps > 0 ? settings.substeps
+                     : large               ? kLargeSubsteps
+                                           : std::clamp(static_cast<int>(std::ceil(dt * kContactRate - 1e-9)), 1, 4096);
+    shape.h = dt / shape.substeps;
+    shape.passes = collider_.anyHit(large ? kHitLarge : kHitSmall, shape.h) ? kHitPasses : 1;
+    shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * shape.h;
+    shape.choice = settings.simd == Simd::Automatic ? KernelChoice::Best
+                   : settings.simd == Simd::Avx2    ? KernelChoice::Avx2
+                                                    : KernelChoice::Sse2;
+    return shape;
+}
+
+template <class Real>
+void RigidStage::load(Solver<Real>& solver, const State& state)
+{
+    const Nodes& nodes = state.nodes;
+    for (Index i = 1; i < collider_.bodies().size(); ++i) {
+        const Index node = collider_.bodies()[i].node;
+        BodyState<Real>& s = solver.body(i);
+        s.velocityX = static_cast<Real>(nodes.velocity[node].x()),
+        s.velocityY = static_cast<Real>(nodes.velocity[node].y());
+        s.omega = static_cast<Real>(nodes.omega[node]);
+        s.invMass = static_cast<Real>(nodes.invMass[node]), s.invInertia = static_cast<Real>(nodes.invInertia[node]);
+        s.moveX = s.moveY = s.turn = 0;
+    }
+}
+
+template <class Real>
+void RigidStage::addConstraints(Solver<Real>& solver, const State& state, const WorldSettings& settings)
+{
+    auto& contacts = collider_.contacts();
+    const auto& bodies = collider_.bodies();
+    const auto& poses = collider_.poses();
+    for (Index i = 0; i < joints_.size(); ++i) {
+        joints_[i].state.force = Vec2(0, 0), joints_[i].state.torque = 0;
+        if (joints_[i].lives()) solver.addJoint(joints_[i], i, state, bodies);
+    }
+    for (Index i = 0; i < contacts.size(); ++i) {
+        RigidContact& c = contacts[i];
+        c.touched = c.touching;
+        c.touching = false;
+        c.stepImpulse = 0;
+        if (c.count == 0) continue;
+        if (c.resolve && settings.resolveCollisions) {
+            solver.addContact(c, i, bodies[c.bodyA], bodies[c.bodyB], poses[c.bodyA], poses[c.bodyB]);
+        } else {
+            c.touching = std::min(c.separation[0], c.count > 1 ? c.separation[1] : c.separation[0]) <= c.slop;
+        }
+    }
+}
+
+void RigidStage::step(State& state, const WorldSettings& settings, double dt, StepStats& stats)
+{
+    find(state, settings, dt, stats);
+    const bool large =
+        settings.precision == Precision::Automatic ? count() > kSmallWorld : settings.precision == Precision::Single;
+    if (large) {
+        solve(single_, state, settings, dt, stats);
+    } else {
+        solve(double_, state, settings, dt, stats);
+    }
+    noteTouches();
+    breakJoints();
+    stats.memory = bytes();
+}
+
+template <class Real>
+void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& settings, double dt, StepStats& stats)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const StepShape shape = shapeOf(settings, dt, count() > kSmallWorld);
+    solver.begin(collider_.bodies().size(), shape);
+    load(solver, state);
+    const double linear = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
+    const double angular = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
+    for (Index i = 1; i < collider_.bodies().size(); ++i) {
+        const RigidBody& body = collider_.bodies()[i];
+        BodyPush<Real>& force = solver.force(i);
+        force = BodyPush<Real>();
+        if (!body.moves) continue;
+        const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
+        const Vec2 pull = scale * settings.gravity + state.nodes.invMass[body.node] * state.nodes.force[body.node];
+        force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
+        force.accelerationW = static_cast<Real>(state.nodes.invInertia[body.node] * state.nodes.torque[body.node]);
+        force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
+    }
+    addConstraints(solver, state, settings);
+    solver.run();
+    solver.finish(collider_.contacts(), joints_);
+    advance(solver, state, dt);
+    stats.colours = static_cast<std::uint32_t>(solver.colours());
+    stats.solverMs += millisecondsSince(start);
+}
+
+/// Moves the nodes, but nothing fast through what was not foreseen.
+template <class Real>
+void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
+{
+    Nodes& nodes = state.nodes;
+    const std::size_t count = collider_.bodies().size();
+    moves_.resize(count), turns_.resize(count);
+    bool fast = false;
+    for (Index i = 1; i < count; ++i) {
+        const BodyState<Real>& s = solver.body(i);
+        moves_[i] = {static_cast<double>(s.moveX), static_cast<double>(s.moveY)};
+        turns_[i] = static_cast<double>(s.turn);
+        const RigidBody& body = collider_.bodies()[i];
+        fast |= body.moves &&
+                moves_[i].squaredNorm() > 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length);
+    }
+    if (fast) collider_.stopTunnelling(allowed_, moves_, turns_, dt);
+    for (Index i = 1; i < count; ++i) {
+        const RigidBody& body = collider_.bodies()[i];
+        if (!body.moves && !body.kinematic) continue;
+        const BodyState<Real>& s = solver.body(i);
+        const double part = fast ? static_cast<double>(allowed_[i]) : 1;
+        nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
+        nodes.omega[body.node] = static_cast<double>(s.omega);
+        nodes.position[body.node] += part * moves_[i];
+        const double turn = part * turns_[i];
+        if (turn == 0) continue;
+        nodes.angle[body.node] += turn;
+        nodes.rotation[body.node] = direction(nodes.angle[body.node]);
+    }
+}
+
+void RigidStage::begin(State& state, const WorldSettings& settings, double h, double dt)
+{
+    StepShape shape = shapeOf(settings, dt, false);
+    shape.h = h;
+    shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * h;
+    shape.passes = collider_.anyHit(kHitSmall, h) ? kHitPasses : 1;
+    double_.begin(collider_.bodies().size(), shape);
+    load(double_, state);
+    start_.resize(collider_.bodies().size()), startAngle_.resize(collider_.bodies().size());
+    for (Index i = 1; i < collider_.bodies().size(); ++i) {
+        start_[i] = state.nodes.position[collider_.bodies()[i].node];
+        startAngle_[i] = state.nodes.angle[collider_.bodies()[i].node];
+    }
+    addConstraints(double_, state, settings);
+}
+
+/// Between the nodes, which other stages move too, and the solver's states.
+void RigidStage::exchange(State& state, bool store)
+{
+    Nodes& nodes = state.nodes;
+    for (Index i = 1; i < collider_.bodies().size(); ++i) {
+        const Index node = collider_.bodies()[i].node;
+        BodyState<double>& s = double_.body(i);
+        if (store) {
+            if (s.invMass > 0) nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega[node] = s.omega;
+            continue;
+        }
+        s.velocityX = nodes.velocity[node].x(), s.velocityY = nodes.velocity[node].y(), s.omega = nodes.omega[node];
+        const Vec2 move = nodes.position[node] - start_[i];
+        s.moveX = move.x(), s.moveY = move.y(), s.turn = nodes.angle[node] - startAngle_[i];
+    }
+}
+
+void RigidStage::push(State& state)
+{
+    exchange(state, false);
+    double_.warm();
+    double_.push();
+    exchange(state, true);
+}
+
+void RigidStage::relax(State& state)
+{
+    exchange(state, false);
+    double_.relax();
+    exchange(state, true);
+}
+
+void RigidStage::finish(State& state, bool bounce)
+{
+    if (bounce) {
+        exchange(state, false);
+        double_.bounce();
+        exchange(state, true);
+    }
+    double_.finish(collider_.contacts(), joints_);
+    noteTouches();
+    breakJoints();
+}
+
+void RigidStage::breakJoints()
+{
+    for (Joint& joint : joints_)
+        if (joint.lives() && joint.def.breakForce > 0 && joint.state.force.norm() > joint.def.breakForce) {
+            joint.broken = true;
+            if (!joint.def.collide) collider_.include(joint.a, joint.b);
+        }
+}
+
+void RigidStage::noteTouches()
+{
+    events_.clear();
+    const auto& bodies = collider_.bodies();
+    const auto note = [&](const RigidContact& c, bool begins) {
+        const Index a = bodies[c.bodyA].handle, b = bodies[c.bodyB].handle;
+        events_.push_back({std::min(a, b), std::max(a, b), begins, static_cast<double>(c.stepImpulse)});
+    };
+    for (const RigidContact& c : collider_.contacts())
+        if (c.touching != c.touched) note(c, c.touching);
+    for (const RigidContact& c : collider_.ended()) note(c, false);
+    std::sort(events_.begin(), events_.end(), [](const ContactEvent& p, const ContactEvent& q) {
+        return std::tie(p.bodyA, p.bodyB, p.begins) < std::tie(q.bodyA, q.bodyB, q.begins);
+    });
+}
+
+void RigidStage::report(const State& state, std::vector<Contact>& reports, std::vector<std::uint64_t>& touching) const
+{
+    for (const RigidContact& c : collider_.contacts()) {
+        if (!c.touching) continue;
+        const Index a = collider_.bodies()[c.bodyA].handle, b = collider_.bodies()[c.bodyB].handle;
+        const Pose& pose = collider_.poses()[c.bodyA];
+        const Vec2f normal = turned(pose.turn, c.normal);
+        for (int k = 0; k < c.count; ++k) {
+            const Vec2f on = turned(pose.turn, c.onA[k]);
+            Contact contact;
+            contact.bodyA = b, contact.bodyB = a;
+            contact.point = Vec2(pose.x + on.x, pose.y + on.y);
+            contact.normal = Vec2(normal.x, normal.y);
+            contact.penetration = -static_cast<double>(c.separation[k]);
+            contact.impulse = static_cast<double>(c.count > 1 ? c.impulse[k] : c.stepImpulse);
+            reports.push_back(contact);
+        }
+        touching.push_back((static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b));
+    }
+    (void)state;
+}
+
+std::size_t RigidStage::bytes() const
+{
+    return collider_.bytes() + single_.bytes() + double_.bytes() + joints_.capacity() * sizeof(Joint) +
+           bodyOf_.capacity() * sizeof(Index);
+}
+
+}  // namespace jet::physics

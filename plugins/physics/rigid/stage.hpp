@@ -1,0 +1,78 @@
+// Rigid bodies of simple shape in a world: from the contract's definitions to parts and joints, and their share of a
+// step. What is concave, has holes or many corners goes by points and walls (contact_finder.hpp) instead, as does every
+// pair with a soft body.
+#pragma once
+
+#include "collider.hpp"
+#include "solver.hpp"
+
+namespace jet::physics {
+
+class RigidStage {
+public:
+    /// Takes the body if its outline is simple; its node is where it shall be. Says whether it did.
+    bool add(const State&, Index handle, const RigidBodyDef&);
+    bool has(Index handle) const { return handle < bodyOf_.size() && bodyOf_[handle] != 0; }
+    std::size_t count() const { return collider_.bodies().size() - 1; }
+    bool empty() const { return count() == 0; }
+
+    Index addJoint(const State&, const JointDef&);
+    Joint& joint(Index index) { return joints_[index]; }
+    const Joint& joint(Index index) const { return joints_[index]; }
+    Index jointCount() const { return static_cast<Index>(joints_.size()); }
+    void removeJoint(Index);
+
+    void find(const State&, const WorldSettings&, double dt, StepStats&);
+
+    /// The whole step, where nothing else moves: `forces` and torques lie in the nodes.
+    void step(State&, const WorldSettings&, double dt, StepStats&);
+
+    // Or in turns with the other stages, in double precision: begin, then each substep push and relax around the move.
+    void begin(State&, const WorldSettings&, double h, double dt);
+    void push(State&);
+    void relax(State&);
+    void finish(State&, bool bounce);
+
+    void report(const State&, std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
+    const std::vector<ContactEvent>& events() const { return events_; }
+    const Collider& collider() const { return collider_; }
+    void moved(Index handle);
+    std::size_t bytes() const;
+
+    template <class Archive>
+    void archive(Archive& with)
+    {
+        collider_.archive(with);
+        for (Joint& joint : joints_) {
+            with(joint.removed), with(joint.broken), with(joint.impulse);
+            with(joint.def.driven), with(joint.def.motorSpeed), with(joint.localA), with(joint.localB);
+        }
+    }
+    void rebuild() { collider_.rebuild(); }
+
+private:
+    StepShape shapeOf(const WorldSettings&, double dt, bool large) const;
+    template <class Real>
+    void solve(Solver<Real>&, State&, const WorldSettings&, double dt, StepStats&);
+    template <class Real>
+    void load(Solver<Real>&, const State&);
+    template <class Real>
+    void addConstraints(Solver<Real>&, const State&, const WorldSettings&);
+    template <class Real>
+    void advance(Solver<Real>&, State&, double dt);
+    void exchange(State&, bool store);
+    void noteTouches();
+    void breakJoints();
+
+    Collider collider_;
+    std::vector<Index> bodyOf_;  // [handles] 0: not here
+    std::vector<Joint> joints_;
+    Solver<float> single_;
+    Solver<double> double_;
+    std::vector<ContactEvent> events_;
+    std::vector<Vec2> start_, moves_;
+    std::vector<double> startAngle_, turns_;
+    std::vector<float> allowed_;
+};
+
+}  // namespace jet::physics
