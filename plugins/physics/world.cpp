@@ -112,7 +112,6 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     addBorders(state_, body, rings);
     setRigidMass(body, def);
     body.simple = rigid_.add(state_, handle, def);
-    complex_ += !body.simple;
     return finishBody(def.common);
 }
 
@@ -150,6 +149,7 @@ void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def)
 BodyHandle World::finishBody(const BodyCommon& common)
 {
     const auto handle = static_cast<BodyHandle>(state_.bodies.size() - 1);
+    complex_ += !state_.bodies[handle].simple;
     BodyReadings& readings = state_.readings;
     readings.position.push_back(Vec2(0, 0));
     readings.velocity.push_back(Vec2(0, 0));

@@ -73,6 +73,8 @@ private:
     void reportIfAsked() const;
     template <class Visit>
     void eachEdge(const QueryFilter&, const Box& region, Visit&&) const;
+    /// Which border point and which wall of the bodies' outlines meet in a contact of simple shapes.
+    void nameFeatures(Contact&) const;
     void report();
     void reportContact(const ContactPoint&);
 
@@ -87,9 +89,9 @@ private:
     ContactFinder finder_;
     ContactSet contacts_;
     RigidStage rigid_;
-    bool stale_ = false;   // points and readings are older than the nodes
-    bool untold_ = false;  // so are the reports
-    Index complex_ = 0;    // bodies that go by points and walls
+    bool stale_ = false;               // points and readings are older than the nodes
+    bool untold_ = false;              // so are the reports
+    Index complex_ = 0;                // bodies that go by points and walls
     std::vector<ContactPoint> ended_;  // pushed in this step, but are over
     std::vector<Vec2> stepForces_;     // [nodes] of applyForce, for the next step only
     bool pushed_ = false;              // is any of them not null?

@@ -52,6 +52,32 @@ void World::reportIfAsked() const
     self.report();
 }
 
+void World::nameFeatures(Contact& contact) const
+{
+    const BodyRecord &a = state_.bodies[contact.bodyA], &b = state_.bodies[contact.bodyB];
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Index p = a.points.first; p < a.points.end(); ++p) {
+        const double away = (state_.points.position[p] - contact.point).squaredNorm();
+        if (away < nearest) nearest = away, contact.particle = p - a.points.first;
+    }
+    // Where a corner touches, the corner is the point; its place is known more exactly.
+    if (nearest < 1e-4 * a.length * a.length) contact.point = state_.points.position[a.points.first + contact.particle];
+    nearest = std::numeric_limits<double>::infinity();
+    for (Index w = b.walls.first; w < b.walls.end(); ++w) {
+        const Vec2& first = state_.points.position[state_.walls.first[w]];
+        const Vec2 edge = state_.points.position[state_.walls.second[w]] - first, off = contact.point - first;
+        const double squared = edge.squaredNorm();
+        if (!(squared > 0)) continue;
+        const double along = std::clamp(off.dot(edge) / squared, 0.0, 1.0), away = (off - along * edge).squaredNorm();
+        if (away >= nearest) continue;
+        nearest = away;
+        contact.wall = state_.walls.first[w] - b.points.first;
+        contact.edgeParameter = along;
+        const Vec2 outward = perpendicular(edge) * (state_.walls.outward[w] / std::sqrt(squared));
+        contact.penetration = outward.dot(contact.normal) > 0.999 ? -off.dot(outward) : contact.penetration;
+    }
+}
+
 std::span<const Contact> World::contacts() const
 {
     reportIfAsked();

@@ -125,7 +125,9 @@ void World::report()
     touching_.clear();
     for (const ContactPoint& c : contacts_.points) reportContact(c);
     for (const ContactPoint& c : ended_) reportContact(c);
-    rigid_.report(state_, reports_, touching_);
+    const std::size_t others = reports_.size();
+    rigid_.report(reports_, touching_);
+    for (std::size_t i = others; i < reports_.size(); ++i) nameFeatures(reports_[i]);
     std::sort(touching_.begin(), touching_.end());
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());

@@ -315,7 +315,7 @@ void Collider::decideSide(RigidContact& c) const
     const Vec2f normal = turned(poses_[c.bodyA].turn, c.normal);
     const auto wrong = [&](const RigidBody& body, Vec2f outward) {
         return (body.oneSidedX != 0 || body.oneSidedY != 0) &&
-               body.oneSidedX * outward.x + body.oneSidedY * outward.y > -0.5F;
+               body.oneSidedX * outward.x + body.oneSidedY * outward.y < 0.5F;
     };
     const bool deep = c.separation[0] < -8 * c.slop && !c.touching;
     if (wrong(bodies_[c.bodyA], normal) || wrong(bodies_[c.bodyB], -normal) || deep) c.passing = true;

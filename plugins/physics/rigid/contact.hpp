@@ -3,7 +3,7 @@
 
 #include "part.hpp"
 
-#include "../state.hpp"
+#include "state.hpp"
 
 namespace jet::physics {
 

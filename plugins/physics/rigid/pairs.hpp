@@ -1,6 +1,6 @@
 // The broad phase: which parts may meet? Boxes with room to move in are swept in the order of their left sides, eight
 // at a time; as long as every part keeps within its box nothing is done. Measured against a dynamic tree this costs a
-// third, because neighbours in a pile are neighbours in the sweep (see docs/decisions/0011).
+// third, because neighbours in a pile are neighbours in the sweep (see docs/decisions/0012).
 #pragma once
 
 #include "contact.hpp"

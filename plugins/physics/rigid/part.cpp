@@ -1,6 +1,6 @@
 #include "part.hpp"
 
-#include "../trigonometry.hpp"
+#include "trigonometry.hpp"
 
 namespace jet::physics {
 

@@ -1,6 +1,6 @@
 #include "stage.hpp"
 
-#include "../validation.hpp"
+#include "validation.hpp"
 
 #include <chrono>
 #include <tuple>
@@ -15,51 +15,6 @@ constexpr int kLargeSubsteps = 4;
 constexpr float kHitSmall = 0.08F, kHitLarge = 0.6F;  // lengths a substep that make a hit
 constexpr int kHitPasses = 12;
 
-/// The ring without points that add nothing, if it is convex and has few corners; else empty.
-std::vector<Vec2> simpleRing(const std::vector<Vec2>& ring)
-{
-    std::vector<Vec2> at = ring;
-    double extent = 0;
-    for (const Vec2& p : at) extent = std::max(extent, (p - at[0]).norm());
-    const double least = 1e-7 * extent;
-    for (std::size_t i = 0; i < at.size() && at.size() > 3;) {
-        const Vec2& before = at[(i + at.size() - 1) % at.size()];
-        const Vec2& next = at[(i + 1) % at.size()];
-        const Vec2 along = next - before;
-        const double off = along.norm() > least ? std::abs(cross(along, at[i] - before)) / along.norm() : 0;
-        if ((at[i] - before).norm() <= least || (off <= least && (at[i] - before).dot(next - at[i]) > 0)) {
-            at.erase(at.begin() + static_cast<std::ptrdiff_t>(i));
-            i = i > 0 ? i - 1 : 0;
-        } else {
-            ++i;
-        }
-    }
-    if (at.size() < 3 || at.size() > kMostCorners) return {};
-    double sign = 0, turning = 0, area = 0;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const Vec2 in = at[(i + 1) % at.size()] - at[i], out = at[(i + 2) % at.size()] - at[(i + 1) % at.size()];
-        const double bend = cross(in, out);
-        if (!(in.norm() > least) || bend * sign < 0 || !(std::abs(bend) > 1e-6 * in.norm() * out.norm())) return {};
-        sign = bend;
-        turning += angleOf(bend, in.dot(out));
-        area += 0.5 * cross(at[i] - at[0], at[(i + 1) % at.size()] - at[0]);
-    }
-    if (std::abs(turning) > 2 * kPi + 0.1 || std::abs(area) < 1e-4 * extent * extent) return {};
-    return at;
-}
-
-std::vector<ShapeDef> partsOf(const RigidBodyDef& def)
-{
-    if (!def.borders.empty()) {
-        if (def.borders.size() != 1 || !def.shapes.empty()) return {};
-        ShapeDef shape;
-        shape.points = simpleRing(def.borders[0]);
-        if (shape.points.empty()) return {};
-        return {shape};
-    }
-    return def.shapes;
-}
-
 double millisecondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -69,8 +24,9 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
 
 bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
 {
-    const std::vector<ShapeDef> shapes = partsOf(def);
-    if (shapes.empty()) return false;
+    // Borders may be concave and have holes: they go by points and walls.
+    if (def.shapes.empty() || !def.borders.empty()) return false;
+    const std::vector<ShapeDef>& shapes = def.shapes;
     const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
     body.node = node, body.handle = handle;
@@ -351,7 +307,7 @@ void RigidStage::noteTouches()
     });
 }
 
-void RigidStage::report(const State& state, std::vector<Contact>& reports, std::vector<std::uint64_t>& touching) const
+void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t>& touching) const
 {
     for (const RigidContact& c : collider_.contacts()) {
         if (!c.touching) continue;
@@ -370,7 +326,6 @@ void RigidStage::report(const State& state, std::vector<Contact>& reports, std::
         }
         touching.push_back((static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b));
     }
-    (void)state;
 }
 
 std::size_t RigidStage::bytes() const

@@ -33,7 +33,7 @@ public:
     void relax(State&);
     void finish(State&, bool bounce);
 
-    void report(const State&, std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
+    void report(std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
     const std::vector<ContactEvent>& events() const { return events_; }
     const Collider& collider() const { return collider_; }
     void moved(Index handle);

@@ -30,13 +30,6 @@ struct MaterialPair {
     bool collides = true;
 };
 
-/// How velocities and contacts become motion.
-enum class Integration : std::uint8_t {
-    SoftStep,          ///< substeps with soft, warm-started contacts: the default
-    SemiImplicitEuler  ///< the thesis's scheme, one substep a step: for teaching and comparison; stiff scenes are
-                       ///< softened
-};
-
 /// Width of the numbers rigid contacts and joints are solved in. Positions are double at this interface in any case.
 enum class Precision : std::uint8_t {
     Automatic,  ///< double for small worlds and those with soft bodies, single for large ones
@@ -60,10 +53,8 @@ struct WorldSettings {
         std::vector<MaterialPair>(1);  ///< [materialCount x materialCount], row major, symmetric
     int threads = 1;
     int substeps = 0;  ///< of the rigid solver a step; 0: 4 in large worlds of rigid bodies, else as the scene needs
-    Integration integration = Integration::SoftStep;
     Precision precision = Precision::Automatic;
     Simd simd = Simd::Automatic;
-    bool allowSleep = false;  ///< islands at rest stop being computed until something touches or changes them
 };
 
 /// Spring between two particles of one soft body (SPEC PH2).
@@ -94,7 +85,6 @@ struct BodyCommon {
     // Rigid bodies only.
     bool kinematic = false;      ///< moves with its velocity and omega, and nothing pushes it
     bool fixedRotation = false;  ///< never turns
-    bool allowSleep = true;      ///< may fall asleep where the world allows it
     std::uint32_t group = 0;     ///< bodies of one group above 0 do not collide with each other
     std::uint32_t layer = 1;     ///< bits: the layers it is on
     std::uint32_t mask = ~0U;    ///< bits: the layers it collides with; both sides must agree

@@ -73,7 +73,7 @@ TEST(Joints, AMotorReachesItsSpeedAndItsTorqueIsLimited)
 TEST(Joints, LimitsHoldAHangingLever)
 {
     auto world = makeWorld({0, 200});
-    const BodyHandle lever = world->addRigidBody(box({20, 0}, 40, 6));
+    const BodyHandle lever = world->addRigidBody(simple(box({20, 0}, 40, 6)));
     JointDef def = between(JointDef::Kind::Revolute, kNoHandle, {0, 0}, lever, {0, 0});
     def.limited = true;
     def.lower = -0.2, def.upper = 0.5;
@@ -86,7 +86,7 @@ TEST(Joints, LimitsHoldAHangingLever)
 TEST(Joints, APrismaticJointSlidesOnlyAlongItsAxis)
 {
     auto world = makeWorld({0, 100});
-    const BodyHandle slider = world->addRigidBody(box({0, 0}, 10, 10));
+    const BodyHandle slider = world->addRigidBody(simple(box({0, 0}, 10, 10)));
     JointDef def = between(JointDef::Kind::Prismatic, kNoHandle, {0, 0}, slider, {0, 0});
     def.axis = {1, 1};
     def.limited = true;
@@ -104,7 +104,7 @@ TEST(Joints, APrismaticJointSlidesOnlyAlongItsAxis)
 TEST(Joints, AWeldHoldsACantilever)
 {
     auto world = makeWorld({0, 100});
-    const BodyHandle beam = world->addRigidBody(box({20, 0}, 40, 8));
+    const BodyHandle beam = world->addRigidBody(simple(box({20, 0}, 40, 8)));
     world->addJoint(between(JointDef::Kind::Weld, kNoHandle, {0, 0}, beam, {0, 0}));
     run(*world, 3);
     EXPECT_NEAR(world->bodies().angle[beam], 0, 0.01);
@@ -172,8 +172,8 @@ TEST(Joints, AJointBreaksAboveItsForce)
 TEST(Joints, TwoBodiesThatCannotMoveAreNoTrouble)
 {
     auto world = makeWorld({0, 100});
-    const BodyHandle a = world->addRigidBody(fixed({boxRing({0, 0}, 10, 10)}));
-    const BodyHandle b = world->addRigidBody(fixed({boxRing({20, 0}, 10, 10)}));
+    const BodyHandle a = world->addRigidBody(simple(fixed({boxRing({0, 0}, 10, 10)})));
+    const BodyHandle b = world->addRigidBody(simple(fixed({boxRing({20, 0}, 10, 10)})));
     world->addJoint(between(JointDef::Kind::Revolute, a, {10, 0}, b, {11, 0}));
     run(*world, 1);
     EXPECT_TRUE(allFinite(*world));

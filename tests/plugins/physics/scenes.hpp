@@ -67,6 +67,14 @@ inline RigidBodyDef box(const Vec2& centre, double width, double height, double 
 /// A fixed slab whose upper side is the line y = top.
 inline RigidBodyDef ground(double top, double width = 2000) { return fixed({boxRing({0, top + 50}, width, 100)}); }
 
+/// The same body given as convex parts instead of borders.
+inline RigidBodyDef simple(RigidBodyDef def)
+{
+    for (const auto& ring : def.borders) def.shapes.push_back({ShapeDef::Kind::Polygon, ring, 0});
+    def.borders.clear();
+    return def;
+}
+
 /// A disc of rings of particles about a hub; neighbours, spokes and diagonals are springs. Mass 1.
 inline SoftBodyDef softBall(const Vec2& centre, double radius, double ks = 200, double kd = 1, int corners = 24,
                             int rings = 3)

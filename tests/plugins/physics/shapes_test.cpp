@@ -43,7 +43,7 @@ TEST(Shapes, MomentsOfInertiaAreExact)
 TEST(Shapes, EveryShapeRestsOnTheGroundAtItsHeight)
 {
     auto world = makeWorld({0, 300});
-    world->addRigidBody(ground(0));
+    world->addRigidBody(simple(ground(0)));
     world->addRigidBody(disc({0, -30}, 10));
     world->addRigidBody(shaped({ShapeDef::Kind::Capsule, {{90, -30}, {110, -30}}, 5}));
     world->addRigidBody(shaped({ShapeDef::Kind::Polygon, {{190, -20}, {210, -20}, {200, -40}}, 0}));
@@ -61,7 +61,7 @@ TEST(Shapes, EveryShapeRestsOnTheGroundAtItsHeight)
 TEST(Shapes, ARollingDiscDoesNotSlow)
 {
     auto world = makeWorld({0, 300}, 0.9);
-    world->addRigidBody(ground(0, 20000));
+    world->addRigidBody(simple(ground(0, 20000)));
     RigidBodyDef def = disc({0, -10}, 10);
     def.common.velocity = {50, 0};
     def.common.omega = 5;
@@ -74,7 +74,7 @@ TEST(Shapes, ARollingDiscDoesNotSlow)
 TEST(Shapes, LayersAndGroupsDecideWhoMeets)
 {
     auto world = makeWorld({0, 300});
-    RigidBodyDef floor = ground(0);
+    RigidBodyDef floor = simple(ground(0));
     floor.common.layer = 2;
     world->addRigidBody(floor);
     RigidBodyDef through = disc({0, -30}, 10), stays = disc({50, -30}, 10);
@@ -94,7 +94,7 @@ TEST(Shapes, LayersAndGroupsDecideWhoMeets)
 TEST(Shapes, APlatformHoldsFromAboveAndLetsPassFromBelow)
 {
     auto world = makeWorld({0, 300}, 0.3);
-    RigidBodyDef platform = fixed({boxRing({0, 0}, 200, 10)});
+    RigidBodyDef platform = simple(fixed({boxRing({0, 0}, 200, 10)}));
     platform.common.oneSided = {0, -1};
     world->addRigidBody(platform);
     world->addRigidBody(disc({-50, -40}, 8));
@@ -114,11 +114,11 @@ TEST(Shapes, APlatformHoldsFromAboveAndLetsPassFromBelow)
 TEST(Shapes, AKinematicBodyPushesAndIsNotPushed)
 {
     auto world = makeWorld({0, 0}, 0);
-    RigidBodyDef pusher = box({0, 0}, 20, 20);
+    RigidBodyDef pusher = simple(box({0, 0}, 20, 20));
     pusher.common.kinematic = true;
     pusher.common.velocity = {30, 0};
     world->addRigidBody(pusher);
-    world->addRigidBody(box({30, 0}, 10, 10, 1000));
+    world->addRigidBody(simple(box({30, 0}, 10, 10, 1000)));
     run(*world, 2);
     EXPECT_NEAR(world->bodies().position[0].x(), 60, 1e-9);
     EXPECT_NEAR(world->bodies().velocity[1].x(), 30, 0.5);
@@ -127,7 +127,7 @@ TEST(Shapes, AKinematicBodyPushesAndIsNotPushed)
 TEST(Shapes, EventsTellWhenATouchBeginsAndEnds)
 {
     auto world = makeWorld({0, 300}, 0.3, 0.8);
-    world->addRigidBody(ground(0));
+    world->addRigidBody(simple(ground(0)));
     world->addRigidBody(disc({0, -40}, 10));
     int begins = 0, ends = 0;
     for (int i = 0; i < 60; ++i) {
@@ -150,7 +150,7 @@ TEST(Shapes, MomentumIsKeptToTheLastBits)
     auto world = makeWorld({0, 0}, 0.4, 0.6);
     Vec2 before(0, 0);
     for (int i = 0; i < 20; ++i) {
-        RigidBodyDef def = i % 2 ? box({30.0 * (i % 5), 30.0 * (i / 5)}, 12, 18, 1 + i, 0.4 * i)
+        RigidBodyDef def = i % 2 ? simple(box({30.0 * (i % 5), 30.0 * (i / 5)}, 12, 18, 1 + i, 0.4 * i))
                                  : disc({30.0 * (i % 5), 30.0 * (i / 5)}, 9, 1 + i);
         def.common.velocity = {60 * std::cos(2.1 * i), 60 * std::sin(1.3 * i)};
         before += def.mass * def.common.velocity;
@@ -172,10 +172,11 @@ TEST(Shapes, InstructionSetsGiveTheSameBits)
             settings.simd = simd;
             settings.precision = precision;
             auto world = JetPhysics().createWorld(settings);
-            world->addRigidBody(ground(0));
+            world->addRigidBody(simple(ground(0)));
             for (int i = 0; i < 60; ++i)
-                world->addRigidBody(i % 3 ? box({-60.0 + 15 * (i % 9), -20.0 - 15 * (i / 9)}, 12, 10, 1, 0.3 * i)
-                                          : disc({-60.0 + 15 * (i % 9), -20.0 - 15 * (i / 9)}, 6));
+                world->addRigidBody(i % 3
+                                        ? simple(box({-60.0 + 15 * (i % 9), -20.0 - 15 * (i / 9)}, 12, 10, 1, 0.3 * i))
+                                        : disc({-60.0 + 15 * (i % 9), -20.0 - 15 * (i / 9)}, 6));
             run(*world, 3);
             hashes[simd == Simd::Avx2] = world->hash();
         }
@@ -186,8 +187,8 @@ TEST(Shapes, InstructionSetsGiveTheSameBits)
 TEST(Shapes, ARayFindsTheFirstBodyInItsWay)
 {
     auto world = makeWorld({0, 0});
-    world->addRigidBody(box({50, 0}, 20, 20));
-    world->addRigidBody(box({100, 0}, 20, 20));
+    world->addRigidBody(simple(box({50, 0}, 20, 20)));
+    world->addRigidBody(simple(box({100, 0}, 20, 20)));
     const auto hit = world->rayCast({0, 0}, {200, 0});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->body, 0u);
