@@ -157,7 +157,7 @@ BodyHandle World::finishBody(const BodyCommon& common)
     readings.omega.push_back(0);
     readings.bounds.push_back(Box());
     readings.firstPoint.push_back(static_cast<Index>(state_.points.size()));
-    stepForces_.resize(state_.nodes.size());
+    stepForces_.resize(state_.nodes.size(), Vec2(0, 0));
     rate_ = -1;
     untold_ = true;
     updateReading(state_, handle);
