@@ -2,12 +2,6 @@
 
 namespace jet::host {
 
-Box paintedArea(const Box& bounds)
-{
-    if (bounds.isNull()) return bounds;
-    return bounds.inflated(0.25 * std::max(bounds.width(), bounds.height()) + 32);
-}
-
 void DamageTracker::visit(const Item& item, bool shown, Box& damage)
 {
     shown = shown && item.visible();

@@ -34,8 +34,4 @@ private:
     std::uint64_t pass_ = 0;
 };
 
-/// The area an item's painting may reach, given its path's bounds: strokes go beyond the path. The same margin as
-/// jet::paintScene() culls with.
-Box paintedArea(const Box& bounds);
-
 }  // namespace jet::host

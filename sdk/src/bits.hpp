@@ -26,7 +26,7 @@ inline bool sameBits(const Path& a, const Path& b)
                std::ranges::equal(x.segments, y.segments,
                                   [](const Segment& s, const Segment& t) { return sameBits(s, t); });
     };
-    return std::ranges::equal(a.contours(), b.contours(), sameContour);
+    return a.sharesPoints(b) || std::ranges::equal(a.contours(), b.contours(), sameContour);
 }
 
 }  // namespace jet

@@ -13,6 +13,18 @@
 namespace jet {
 
 Painter::~Painter() = default;
+bool Painter::picture(const Affine& frame, std::string_view)
+{
+    const auto corner = [&](double x, double y) -> Vec2 { return frame * Vec2(x, y); };
+    Path outline = Path::polygon(std::array{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
+    outline.moveTo(corner(0, 0)), outline.lineTo(corner(1, 1));
+    outline.moveTo(corner(1, 0)), outline.lineTo(corner(0, 1));
+    Pen pen;
+    pen.color = Color{128, 128, 128, 255};
+    pen.cosmetic = true;
+    stroke(outline, pen);
+    return true;
+}
 PluginRegistrar::~PluginRegistrar() = default;
 Catalog::~Catalog() = default;
 void Catalog::recall(const PluginUse&) {}

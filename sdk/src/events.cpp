@@ -1,9 +1,12 @@
 // Listeners of one (sender, type) pair form a channel; a hash table finds it. Delivery walks the channel's slots, so
 // its cost does not depend on how many listeners there are elsewhere. Slots freed during delivery are reused only after
-// it ended.
+// it ended. Channels belong to the owner's thread and need no lock; other threads subscribe and leave through the
+// queue, and what stops a handler at once is a flag in the subscription's link. (A lock around each channel would cost
+// more than the delivery itself.)
 #include <jet/events.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <deque>
 #include <exception>
@@ -17,12 +20,6 @@ namespace jet {
 
 namespace {
 
-struct Slot {
-    std::function<void(const void*)> handler;
-    std::uint64_t serial = 0;  // when it subscribed: ascending within a channel
-    bool alive = true;
-};
-
 struct Key {
     const void* sender;
     std::uint64_t type;
@@ -35,18 +32,32 @@ struct KeyHash {
     }
 };
 
-struct Channel {
-    std::deque<Slot> slots;  // a deque: a handler stays where it is while others subscribe
-    std::size_t alive = 0;
-    int delivering = 0;
-    bool leftWhileDelivering = false;
-};
-
-using Channels = std::unordered_map<Key, std::unique_ptr<Channel>, KeyHash>;
-
 }  // namespace
 
+/// What subscription and slot share.
+struct Subscription::Link {
+    std::weak_ptr<EventsCenter::Private> center;
+    Key key;
+    std::uint64_t serial = 0;  // when it was entered: ascending within a channel. Owner's thread
+    std::atomic<bool> alive{true};
+};
+
 struct EventsCenter::Private {
+    using Link = Subscription::Link;
+    struct Slot {
+        std::function<void(const void*)> handler;
+        std::shared_ptr<Link> link;
+        std::uint64_t serial = 0;
+        bool alive = true;  // entered and not left
+    };
+    struct Channel {
+        std::deque<Slot> slots;  // a deque: a handler stays where it is while others subscribe
+        std::size_t alive = 0;
+        int delivering = 0;
+        bool leftWhileDelivering = false;
+    };
+    using Channels = std::unordered_map<Key, std::unique_ptr<Channel>, KeyHash>;
+
     Channels channels;
     std::uint64_t serial = 0;
     std::size_t listeners = 0;
@@ -66,7 +77,7 @@ struct EventsCenter::Private {
         ++channel.delivering;
         for (std::size_t i = 0, n = channel.slots.size(); i < n; ++i) {
             Slot& slot = channel.slots[i];
-            if (!slot.alive || slot.serial > last) continue;
+            if (!slot.alive || slot.serial > last || !slot.link->alive.load(std::memory_order_acquire)) continue;
             try {
                 slot.handler(event);
             } catch (...) {
@@ -97,6 +108,68 @@ struct EventsCenter::Private {
             if (slot.alive) found->second->slots.push_back(std::move(slot));
     }
 
+    static std::shared_ptr<Link> link(const std::shared_ptr<Private>& center, const Key& key)
+    {
+        auto made = std::make_shared<Link>();
+        made->center = center;
+        made->key = key;
+        return made;
+    }
+
+    void subscribe(const std::shared_ptr<Link>& link, std::function<void(const void*)> handler)
+    {
+        if (onOwnerThread()) return enter(link, std::move(handler));
+        enqueue([link, h = std::move(handler)]() mutable {
+            if (const auto center = link->center.lock()) center->enter(link, std::move(h));
+        });
+    }
+
+    void enter(const std::shared_ptr<Link>& link, std::function<void(const void*)> handler)
+    {
+        if (!link->alive.load(std::memory_order_acquire)) return;  // left before it came
+        auto& channel = channels[link->key];
+        if (!channel) channel = std::make_unique<Channel>();
+        link->serial = ++serial;
+        channel->slots.push_back({std::move(handler), link, link->serial, true});
+        ++channel->alive;
+        ++listeners;
+    }
+
+    void leave(const Link& link)
+    {
+        const auto found = channels.find(link.key);
+        if (found == channels.end()) return;
+        Channel& channel = *found->second;
+        const auto slot = std::lower_bound(channel.slots.begin(), channel.slots.end(), link.serial,
+                                           [](const Slot& s, std::uint64_t at) { return s.serial < at; });
+        if (slot == channel.slots.end() || slot->link.get() != &link || !slot->alive) return;
+        slot->alive = false;
+        --channel.alive;
+        --listeners;
+        // What the handler holds goes now, unless it may be the one that is running.
+        std::function<void(const void*)> handler;
+        if (channel.delivering == 0) {
+            handler = std::move(slot->handler);
+        } else {
+            channel.leftWhileDelivering = true;
+        }
+        const Key key = link.key;
+        sweep(key);
+    }
+
+    bool onOwnerThread() const { return std::this_thread::get_id() == owner; }
+
+    void enqueue(std::function<void()> task)
+    {
+        std::function<void()> wake;
+        {
+            const std::lock_guard lock(mutex);
+            queue.push_back(std::move(task));
+            wake = wakeUp;
+        }
+        if (wake) wake();
+    }
+
     void report(std::exception_ptr problem)
     {
         try {
@@ -108,12 +181,6 @@ struct EventsCenter::Private {
             std::fprintf(stderr, "error: an event listener failed with an unknown exception\n");
         }
     }
-};
-
-struct Subscription::Link {
-    std::weak_ptr<EventsCenter::Private> center;
-    Key key;
-    std::uint64_t serial;
 };
 
 Subscription::Subscription(Subscription&&) noexcept = default;
@@ -131,25 +198,16 @@ void Subscription::reset()
 {
     const auto link = std::exchange(link_, nullptr);
     if (!link) return;
+    link->alive.store(false, std::memory_order_release);
     const auto center = link->center.lock();
     if (!center) return;
-    const auto found = center->channels.find(link->key);
-    if (found == center->channels.end()) return;
-    Channel& channel = *found->second;
-    const auto slot = std::lower_bound(channel.slots.begin(), channel.slots.end(), link->serial,
-                                       [](const Slot& s, std::uint64_t serial) { return s.serial < serial; });
-    if (slot == channel.slots.end() || slot->serial != link->serial || !slot->alive) return;
-    slot->alive = false;
-    --channel.alive;
-    --center->listeners;
-    // What the handler holds goes now, unless it may be the one that is running.
-    std::function<void(const void*)> handler;
-    if (channel.delivering == 0) {
-        handler = std::move(slot->handler);
+    if (center->onOwnerThread()) {
+        center->leave(*link);
     } else {
-        channel.leftWhileDelivering = true;
+        center->enqueue([link] {
+            if (const auto still = link->center.lock()) still->leave(*link);
+        });
     }
-    center->sweep(link->key);
 }
 
 EventsCenter::EventsCenter() : d_(std::make_shared<Private>()) {}
@@ -157,14 +215,34 @@ EventsCenter::~EventsCenter() = default;
 
 Subscription EventsCenter::subscribeErased(const void* sender, EventType type, std::function<void(const void*)> handler)
 {
-    const Key key{sender, type.hash};
-    auto& channel = d_->channels[key];
-    if (!channel) channel = std::make_unique<Channel>();
-    channel->slots.push_back({std::move(handler), ++d_->serial, true});
-    ++channel->alive;
-    ++d_->listeners;
     Subscription subscription;
-    subscription.link_ = std::make_shared<Subscription::Link>(Subscription::Link{d_, key, d_->serial});
+    subscription.link_ = d_->link(d_, {sender, type.hash});
+    d_->subscribe(subscription.link_, std::move(handler));
+    return subscription;
+}
+
+Subscription EventsCenter::subscribeBursts(const void* sender, EventType type, std::function<void(const void*)> collect,
+                                           std::function<void()> deliver)
+{
+    struct Burst {
+        std::function<void(const void*)> collect;
+        std::function<void()> deliver;
+        bool queued = false;
+    };
+    auto burst = std::make_shared<Burst>(Burst{std::move(collect), std::move(deliver)});
+    Subscription subscription;
+    subscription.link_ = d_->link(d_, {sender, type.hash});
+    d_->subscribe(subscription.link_, [burst, link = std::weak_ptr(subscription.link_)](const void* event) {
+        burst->collect(event);
+        const auto subscribed = link.lock();
+        const auto center = subscribed ? subscribed->center.lock() : nullptr;
+        if (!center || std::exchange(burst->queued, true)) return;
+        center->enqueue([burst, link] {
+            burst->queued = false;
+            const auto still = link.lock();
+            if (still && still->alive.load(std::memory_order_acquire)) burst->deliver();
+        });
+    });
     return subscription;
 }
 
@@ -175,18 +253,9 @@ void EventsCenter::deliver(const void* sender, EventType type, const void* event
     if (sender) keepAlive->run(Key{nullptr, type.hash}, event);
 }
 
-bool EventsCenter::onOwnerThread() const { return std::this_thread::get_id() == d_->owner; }
+bool EventsCenter::onOwnerThread() const { return d_->onOwnerThread(); }
 
-void EventsCenter::enqueue(std::function<void()> task)
-{
-    std::function<void()> wakeUp;
-    {
-        const std::lock_guard lock(d_->mutex);
-        d_->queue.push_back(std::move(task));
-        wakeUp = d_->wakeUp;
-    }
-    if (wakeUp) wakeUp();
-}
+void EventsCenter::enqueue(std::function<void()> task) { d_->enqueue(std::move(task)); }
 
 void EventsCenter::dispatchQueued()
 {

@@ -1,6 +1,7 @@
 #include "item_mutator.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace jet {
 
@@ -56,9 +57,16 @@ const EffectInstance* Item::effect(std::string_view type) const
 std::size_t Item::index() const
 {
     if (!parent_) return 0;
+    // From where it was found last, outwards: siblings come and go one by one, so it is there or near.
     const auto& all = parent_->children_;
-    return static_cast<std::size_t>(
-        std::find_if(all.begin(), all.end(), [this](const auto& c) { return c.get() == this; }) - all.begin());
+    const std::size_t hint = std::min<std::size_t>(index_, all.size() - 1);
+    for (std::size_t below = hint, above = hint;;) {
+        if (all[below].get() == this) return index_ = static_cast<std::uint32_t>(below);
+        if (all[above].get() == this) return index_ = static_cast<std::uint32_t>(above);
+        assert((below > 0 || above + 1 < all.size()) && "an item that its parent does not have");
+        if (below > 0) --below;
+        if (above + 1 < all.size()) ++above;
+    }
 }
 
 const Item* Item::sibling() const
@@ -113,6 +121,7 @@ void Item::Mutator::setProperty(Item& item, std::string_view id, const Value& va
 void Item::Mutator::insert(Item& parent, std::size_t index, std::unique_ptr<Item> child)
 {
     child->parent_ = &parent;
+    child->index_ = static_cast<std::uint32_t>(index);
     parent.children_.insert(parent.children_.begin() + static_cast<std::ptrdiff_t>(index), std::move(child));
     for (Item* item = &parent; item && item->boundsValid_; item = item->parent_) item->boundsValid_ = false;
 }
@@ -160,6 +169,38 @@ const Item* findClosestByName(const Item& from, std::string_view name)
         if (level->parent()->name() == name) return level->parent();
     }
     return nullptr;
+}
+
+bool isPaintedBefore(const Item& a, const Item& b)
+{
+    const auto depth = [](const Item* item) {
+        int count = 0;
+        while ((item = item->parent())) ++count;
+        return count;
+    };
+    const Item *x = &a, *y = &b;
+    int depthX = depth(x), depthY = depth(y);
+    const int levels = depthX - depthY;
+    while (depthX > depthY) x = x->parent(), --depthX;
+    while (depthY > depthX) y = y->parent(), --depthY;
+    if (x == y) return levels < 0;  // one is an ancestor of the other, and painted first
+    while (x->parent() != y->parent()) x = x->parent(), y = y->parent();
+    return x->index() < y->index();
+}
+
+Affine frameOf(const Path& path)
+{
+    Vec2 origin, right, down;
+    if (const std::size_t count = path.segmentCount(); count >= 4) {
+        origin = path.segment(0).point;
+        right = path.segment(1).point - origin;
+        down = path.segment(count - 1).point - origin;
+    } else if (const Box box = path.bounds(); !box.isNull()) {
+        origin = box.min;
+        right = Vec2(box.width(), 0);
+        down = Vec2(0, box.height());
+    }
+    return Affine::fromSvg(right.x(), right.y(), down.x(), down.y(), origin.x(), origin.y());
 }
 
 const Item& topGroup(const Item& item)

@@ -33,6 +33,9 @@ struct Item::Mutator {
         item.visible_ = visible, item.locked_ = locked;
         item.touch();
     }
+    static std::uint32_t& slot(Item& item) { return item.slot_; }
+    static std::uint32_t slot(const Item& item) { return item.slot_; }
+    static std::uint32_t& order(const Item& item) { return item.order_; }
     static void setId(Item& item, ItemId id) { item.id_ = id; }
     static std::vector<EffectInstance>& effects(Item& item)
     {

@@ -1,5 +1,5 @@
-// The item types every scene knows (SPEC IT1-IT8): their properties, their look while editing, what they add to a
-// simulation.
+// The item types every scene knows (SPEC IT1-IT9, images and text): their properties, their look while editing, what
+// they add to a simulation.
 #include <jet/catalog.hpp>
 #include <jet/item_type.hpp>
 
@@ -30,6 +30,8 @@ private:
 
 constexpr Color kOutline{120, 120, 128, 255};
 constexpr Color kActuator{176, 64, 0, 255};
+constexpr Color kFrame{120, 120, 128, 120};
+constexpr Color kMissing{200, 0, 120, 255};
 
 Pen cosmeticPen(Color color, double pixels)
 {
@@ -162,14 +164,115 @@ PropertyTable bodyProperties()
     };
 }
 
+/// Lines of a text item, one below the other from the frame's top.
+class TextType final : public PlainType {
+public:
+    TextType()
+        : PlainType("Text", PropertyTable{
+                                text("text", "Text", "Text", true),
+                                text("font", "Font", "").says("Family, such as DejaVu Sans; empty: the usual one."),
+                                real("size", "Size", 24).in("units").range(1e-3, 1e6).says("Of the letter M."),
+                                color("color", "Color", Color{0, 0, 0, 255}),
+                                choice("align", "Alignment", {"left", "center", "right"}),
+                            })
+    {
+    }
+    void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (path.isEmpty()) return;
+        if (purpose == PaintPurpose::Edit) painter.stroke(path, cosmeticPen(kFrame, 1));
+        const Affine frame = frameOf(path);
+        const Vec2 right = frame.linear().col(0), down = frame.linear().col(1);
+        const double width = right.norm(), height = down.norm();
+        if (!(width > 0) || !(height > 0)) return;
+        Affine upright = frame;  // turns as the frame does, but letters keep their size
+        upright.linear().col(0) = right / width;
+        upright.linear().col(1) = down / height;
+        painter.save();
+        painter.transform(upright);
+        paintLines(item, width, painter);
+        painter.restore();
+    }
+
+private:
+    static constexpr double kAscent = 0.93, kLineHeight = 1.2;  // of the size
+
+    void paintLines(const Item& item, double width, Painter& painter) const
+    {
+        TextStyle style;
+        style.color = get<Color>(item, "color");
+        style.size = get<double>(item, "size");
+        style.family = get<std::string>(item, "font");
+        const auto align = get<std::string>(item, "align");
+        double x = 0;
+        if (align == "center") style.align = TextAlign::Center, x = 0.5 * width;
+        if (align == "right") style.align = TextAlign::Right, x = width;
+        const auto all = get<std::string>(item, "text");
+        double y = kAscent * style.size;
+        for (std::size_t begin = 0; begin <= all.size(); y += kLineHeight * style.size) {
+            const std::size_t end = std::min(all.find('\n', begin), all.size());
+            if (end > begin) painter.text({x, y}, std::string_view(all).substr(begin, end - begin), style);
+            begin = end + 1;
+        }
+    }
+};
+
+class ImageType final : public PlainType {
+public:
+    ImageType()
+        : PlainType("Image", PropertyTable{
+                                 text("file", "File", "").says("PNG or JPEG, from the project's folder."),
+                                 real("opacity", "Opacity", 1).range(0, 1),
+                             })
+    {
+    }
+    void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (path.isEmpty()) return;
+        painter.save();
+        painter.opacity(get<double>(item, "opacity"));
+        const bool drawn = painter.picture(frameOf(path), get<std::string>(item, "file"));
+        painter.restore();
+        if (drawn || purpose != PaintPurpose::Edit) return;
+        painter.stroke(path, cosmeticPen(kMissing, 1.5));  // the file cannot be read: the place shows while editing
+        painter.text(path.bounds().center(), get<std::string>(item, "file"), TextStyle{kMissing, 12, true, true});
+    }
+};
+
+/// Shown while editing as a loudspeaker in its frame.
+class SoundType final : public PlainType {
+public:
+    SoundType()
+        : PlainType("Sound", PropertyTable{
+                                 text("file", "File", "").says("WAV or OGG, from the project's folder."),
+                                 real("volume", "Volume", 1).range(0, 1),
+                                 flag("loop", "Loop", false),
+                                 flag("autoplay", "Plays at start", false).says("When play starts."),
+                             })
+    {
+    }
+    void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    {
+        if (purpose != PaintPurpose::Edit || path.isEmpty()) return;
+        const Affine frame = frameOf(path);
+        const auto at = [&](double x, double y) -> Vec2 { return frame * Vec2(x, y); };
+        const std::array horn{at(0.2, 0.4), at(0.4, 0.4), at(0.65, 0.2), at(0.65, 0.8), at(0.4, 0.6), at(0.2, 0.6)};
+        painter.fill(Path::polygon(horn), Brush(kActuator), FillRule::NonZero);
+        Path wave;
+        wave.moveTo(at(0.75, 0.35));
+        wave.quadTo(at(0.9, 0.5), at(0.75, 0.65));
+        painter.stroke(wave, cosmeticPen(kActuator, 2));
+    }
+};
+
 struct BuiltIn {
     std::string_view id;
     std::unique_ptr<ItemType> type;
 };
 
-const std::array<BuiltIn, 8>& builtIns()
+const std::array<BuiltIn, 11>& builtIns()
 {
-    static const std::array<BuiltIn, 8> all{{
+    static const std::array<BuiltIn, 11> all{{
         {GroupItem::type, std::make_unique<PlainType>("Group", PropertyTable{})},
         {LayerItem::type, std::make_unique<PlainType>("Layer", PropertyTable{})},
         {ShapeItem::type, std::make_unique<ShapeType>("Shape", PropertyTable{})},
@@ -180,6 +283,9 @@ const std::array<BuiltIn, 8>& builtIns()
         {SpringItem::type, std::make_unique<SpringType>()},
         {RSpringItem::type, std::make_unique<AngularSpringType>()},
         {TorqueItem::type, std::make_unique<TorqueType>()},
+        {SoundItem::type, std::make_unique<SoundType>()},
+        {ImageItem::type, std::make_unique<ImageType>()},
+        {TextItem::type, std::make_unique<TextType>()},
     }};
     return all;
 }

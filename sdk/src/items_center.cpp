@@ -1,3 +1,5 @@
+// The tree and the selection of a scene, changes made and taken back, and who is told. Where items are:
+// items_query.cpp.
 #include "scene_state.hpp"
 
 #include <algorithm>
@@ -73,21 +75,18 @@ ItemsCenter::Private::Private(Scene& s, EventsCenter& e, Catalog& c)
     : scene(s), events(e), catalog(c), root(std::make_unique<Item>(kRootId, GroupItem::type))
 {
     Item::Mutator::setName(*root, "Top group");
-    byId.emplace(kRootId.value, root.get());
+    byId.insert(kRootId.value, root.get());
+    ordered = std::make_shared<const std::vector<ItemId>>();
 }
 
 Item& ItemsCenter::Private::get(ItemId id)
 {
-    const auto found = byId.find(id.value);
-    if (found == byId.end()) throw Failure(Error("the item is no longer in the scene"));
-    return *found->second;
+    Item* found = byId.find(id.value);
+    if (!found) throw Failure(Error("the item is no longer in the scene"));
+    return *found;
 }
 
-bool ItemsCenter::Private::owns(const Item& item) const
-{
-    const auto found = byId.find(item.id().value);
-    return found != byId.end() && found->second == &item;
-}
+bool ItemsCenter::Private::owns(const Item& item) const { return byId.find(item.id().value) == &item; }
 
 void ItemsCenter::Private::own(const Item& item) const
 {
@@ -102,34 +101,34 @@ void ItemsCenter::Private::ownChangeable(const Item& item) const
 
 void ItemsCenter::Private::enlist(Item& subtree)
 {
-    subtree.walk([this](const Item& item) {
-        byId.emplace(item.id().value, const_cast<Item*>(&item));
+    orderValid = false;
+    subtree.walk([this](const Item& constant) {
+        Item& item = const_cast<Item&>(constant);
+        byId.insert(item.id().value, &item);
         nextId = std::max(nextId, item.id().value + 1);
+        if (indexed) index.add(item);
     });
 }
 
 void ItemsCenter::Private::delist(const Item& subtree)
 {
+    orderValid = false;
     bool selectedGone = false;
     subtree.walk([&](const Item& item) {
         byId.erase(item.id().value);
+        if (indexed) index.remove(const_cast<Item&>(item));
         scene.dropEffectStates(item.id());
         selectedGone = selected.erase(item.id().value) > 0 || selectedGone;
     });
-    if (selectedGone) events.post(&scene, SelectionChanged{&scene});
+    if (!selectedGone) return;
+    selectionStale = true;
+    noteSelection();
 }
 
-const std::vector<ItemId>& ItemsCenter::Private::selection() const
-{
-    if (ordered.size() != selected.size())
-        std::erase_if(ordered, [&](ItemId id) { return !selected.contains(id.value); });
-    return ordered;
-}
-
-void ItemsCenter::Private::insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item)
+void ItemsCenter::Private::insert(ItemId parent, std::size_t place, std::unique_ptr<Item> item)
 {
     enlist(*item);
-    Item::Mutator::insert(get(parent), index, std::move(item));
+    Item::Mutator::insert(get(parent), place, std::move(item));
 }
 
 std::unique_ptr<Item> ItemsCenter::Private::take(ItemId id)
@@ -140,6 +139,19 @@ std::unique_ptr<Item> ItemsCenter::Private::take(ItemId id)
     return taken;
 }
 
+void ItemsCenter::Private::moveItem(ItemId from, std::size_t fromIndex, ItemId to, std::size_t toIndex)
+{
+    auto item = Item::Mutator::take(get(from), fromIndex);
+    Item::Mutator::insert(get(to), toIndex, std::move(item));
+    orderValid = false;
+}
+
+void ItemsCenter::Private::setPath(Item& item, const Path& path)
+{
+    Item::Mutator::setPath(item, path);
+    if (indexed) index.changed(item);
+}
+
 void ItemsCenter::Private::apply(Change& change)
 {
     using M = Item::Mutator;
@@ -147,11 +159,8 @@ void ItemsCenter::Private::apply(Change& change)
         Overloaded{
             [&](ItemAdded& c) { insert(c.parent, c.index, std::move(c.detached)); },
             [&](ItemRemoved& c) { c.detached = take(c.item); },
-            [&](ItemMoved& c) {
-                auto item = M::take(get(c.oldParent), c.oldIndex);
-                M::insert(get(c.newParent), c.newIndex, std::move(item));
-            },
-            [&](PathChanged& c) { M::setPath(get(c.item), c.after); },
+            [&](ItemMoved& c) { moveItem(c.oldParent, c.oldIndex, c.newParent, c.newIndex); },
+            [&](PathChanged& c) { setPath(get(c.item), c.after); },
             [&](PropertyChanged& c) { M::setProperty(get(c.item), c.property, c.after); },
             [&](TypeChanged& c) { M::setType(get(c.item), c.after); },
             [&](EffectAdded& c) {
@@ -172,9 +181,10 @@ void ItemsCenter::Private::apply(Change& change)
 
 void ItemsCenter::Private::make(Change change)
 {
+    if (changes.size() == changes.capacity()) changes.reserve(2 * changes.size() + 1);  // what is made gets recorded
     apply(change);
-    open->changes.push_back(std::move(change));
-    notifyTouched();
+    changes.push_back(std::move(change));
+    noteTouched();
 }
 
 void ItemsCenter::Private::revert(Change& change)
@@ -183,11 +193,8 @@ void ItemsCenter::Private::revert(Change& change)
     std::visit(Overloaded{
                    [&](ItemAdded& c) { c.detached = take(c.item); },
                    [&](ItemRemoved& c) { insert(c.parent, c.index, std::move(c.detached)); },
-                   [&](ItemMoved& c) {
-                       auto item = M::take(get(c.newParent), c.newIndex);
-                       M::insert(get(c.oldParent), c.oldIndex, std::move(item));
-                   },
-                   [&](PathChanged& c) { M::setPath(get(c.item), c.before); },
+                   [&](ItemMoved& c) { moveItem(c.newParent, c.newIndex, c.oldParent, c.oldIndex); },
+                   [&](PathChanged& c) { setPath(get(c.item), c.before); },
                    [&](PropertyChanged& c) { M::setProperty(get(c.item), c.property, c.before); },
                    [&](TypeChanged& c) { M::setType(get(c.item), c.before); },
                    [&](EffectAdded& c) {
@@ -210,35 +217,130 @@ void ItemsCenter::Private::revert(Change& change)
 
 void ItemsCenter::Private::revertTo(std::size_t count)
 {
-    while (open->changes.size() > count) {
-        revert(open->changes.back());
-        open->changes.pop_back();
+    if (changes.size() > count) noteTouched();
+    while (changes.size() > count) {
+        revert(changes.back());
+        changes.pop_back();
     }
 }
 
-void ItemsCenter::Private::revertAll()
+void ItemsCenter::Private::revertLevel(std::size_t level)
 {
-    revertTo(0);
-    nextId = open->nextIdBefore;
-    setSelection(open->selectionBefore);
+    const OpenLevel& at = levels[level];
+    revertTo(at.changesBefore);
+    nextId = at.nextIdBefore;
+    restoreSelection(at.selectionBefore);
+}
+
+void ItemsCenter::Private::closeLevels(std::size_t level)
+{
+    levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(level), levels.end());
+    if (!levels.empty()) return;
+    if (indexed) index.settle();
+    tell();
+}
+
+// --- selection
+
+const std::vector<ItemId>& ItemsCenter::Private::selection() const
+{
+    if (std::exchange(selectionStale, false)) {
+        std::vector<ItemId> left = *ordered;
+        std::erase_if(left, [&](ItemId id) { return !selected.contains(id.value); });
+        ordered = std::make_shared<const std::vector<ItemId>>(std::move(left));
+    }
+    return *ordered;
 }
 
 void ItemsCenter::Private::setSelection(std::vector<ItemId> items)
 {
-    std::unordered_set<std::uint64_t> known;
-    std::erase_if(
-        items, [&](ItemId id) { return id == kRootId || !byId.contains(id.value) || !known.insert(id.value).second; });
     if (items == selection()) return;
-    ordered = std::move(items);
+    std::unordered_set<std::uint64_t> known;
+    known.reserve(items.size());
+    std::erase_if(items,
+                  [&](ItemId id) { return id == kRootId || !byId.find(id.value) || !known.insert(id.value).second; });
+    if (items == selection()) return;
+    ordered = std::make_shared<const std::vector<ItemId>>(std::move(items));
     selected = std::move(known);
-    events.post(&scene, SelectionChanged{&scene});
+    noteSelection();
 }
 
-void ItemsCenter::Private::notifyTouched() { events.post(&scene, SceneTouched{&scene}); }
-
-void ItemsCenter::Private::notifyChanged(std::span<const Change> changes, ItemsChanged::Cause cause)
+void ItemsCenter::Private::restoreSelection(const SelectionPtr& before)
 {
-    events.post(&scene, ItemsChanged{&scene, changes, cause});
+    if (!selectionStale && before == ordered) return;
+    setSelection(*before);
+    if (*ordered == *before) ordered = before;
+}
+
+// --- events
+
+void ItemsCenter::Private::noteTouched()
+{
+    touched = true;
+    tellLater();
+}
+
+void ItemsCenter::Private::noteSelection()
+{
+    selectionTouched = true;
+    tellLater();
+}
+
+// While a transaction is open, between the calls of who makes it; else at once.
+void ItemsCenter::Private::tellLater()
+{
+    if (undoing > 0) return;  // told when all of the step is done
+    if (levels.empty()) return tell();
+    if (std::exchange(scheduled, true)) return;
+    events.enqueue([this, gone = std::weak_ptr<int>(alive)] {
+        if (gone.expired()) return;
+        scheduled = false;
+        tell();
+    });
+}
+
+void ItemsCenter::Private::tell()
+{
+    const std::weak_ptr<int> gone = alive;  // a listener may close the scene
+    if (std::exchange(touched, false)) events.post(&scene, SceneTouched{&scene});
+    if (gone.expired()) return;
+    if (std::exchange(selectionTouched, false)) events.post(&scene, SelectionChanged{&scene});
+}
+
+void ItemsCenter::Private::announce(std::shared_ptr<UndoStep> step, std::size_t firstChange, ItemsChanged::Cause cause)
+{
+    announcements.push_back({std::move(step), firstChange, cause});
+    if (announcing) return;
+    announcing = true;
+    const std::weak_ptr<int> gone = alive;  // a listener may close the scene
+    while (!announcements.empty()) {
+        const Announcement next = std::move(announcements.front());
+        announcements.pop_front();
+        tell();
+        if (gone.expired()) return;
+        events.post(&scene, ItemsChanged{&scene, std::span(next.step->changes).subspan(next.firstChange), next.cause});
+        if (gone.expired()) return;
+        events.post(&scene, HistoryChanged{&scene});
+        if (gone.expired()) return;
+    }
+    announcing = false;
+}
+
+void ItemsChanged::Burst::add(const ItemsChanged& event)
+{
+    scene = event.scene;
+    for (const Change& change : event.changes) {
+        if (const ItemId id = changedItem(change)) {
+            items.push_back(id);
+        } else {
+            settings = true;
+        }
+        tree = tree || std::holds_alternative<ItemAdded>(change) || std::holds_alternative<ItemRemoved>(change) ||
+               std::holds_alternative<ItemMoved>(change);
+    }
+    std::ranges::sort(items);
+    const auto repeated = std::ranges::unique(items);
+    items.erase(repeated.begin(), repeated.end());
 }
 
 ItemsCenter::ItemsCenter(Scene& scene, EventsCenter& events, Catalog& catalog)
@@ -249,74 +351,26 @@ ItemsCenter::~ItemsCenter() = default;
 
 Transaction ItemsCenter::begin(std::string_view label)
 {
-    if (d_->open)
-        throw Failure(Error("'" + std::string(label) + "' cannot start while '" + d_->open->label +
-                            "' is under way; finish or cancel that first"));
-    d_->open = OpenTransaction{++d_->serial, std::string(label), {}, d_->selection(), d_->nextId};
+    d_->selection();  // without those that were removed
+    d_->levels.push_back({++d_->serial, std::string(label), d_->changes.size(), d_->ordered, d_->nextId});
     return Transaction(*this, d_->serial);
 }
 
-bool ItemsCenter::inTransaction() const { return d_->open.has_value(); }
+bool ItemsCenter::inTransaction() const { return !d_->levels.empty(); }
+std::string ItemsCenter::transactionLabel() const { return d_->levels.empty() ? "" : d_->levels.front().label; }
 
 void ItemsCenter::abandon()
 {
-    if (!d_->open) return;
-    const bool touched = !d_->open->changes.empty();
-    d_->revertAll();
-    d_->open.reset();
-    if (touched) d_->notifyTouched();
+    if (d_->levels.empty()) return;
+    d_->revertLevel(0);
+    d_->closeLevels(0);
 }
 
 const Item& ItemsCenter::root() const { return *d_->root; }
-
-const Item* ItemsCenter::find(ItemId id) const
-{
-    const auto found = d_->byId.find(id.value);
-    return found == d_->byId.end() ? nullptr : found->second;
-}
-
+const Item* ItemsCenter::find(ItemId id) const { return d_->byId.find(id.value); }
 std::size_t ItemsCenter::itemCount() const { return d_->byId.size() - 1; }
 const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection(); }
-
 bool ItemsCenter::isSelected(ItemId id) const { return d_->selected.contains(id.value); }
-
 void ItemsCenter::setSelection(std::vector<ItemId> items) { d_->setSelection(std::move(items)); }
-
-namespace {
-
-const Item* topmostAt(const Item& item, const Vec2& p, double distance)
-{
-    if (!item.visible() || item.locked()) return nullptr;
-    const Box box = item.bounds();
-    if (box.isNull() || !box.inflated(distance).contains(p)) return nullptr;
-    const auto children = item.children();
-    for (auto child = children.rbegin(); child != children.rend(); ++child)
-        if (const Item* found = topmostAt(**child, p, distance)) return found;
-    if (item.isContainer() || item.path().isEmpty()) return nullptr;
-    const bool closed = std::any_of(item.path().contours().begin(), item.path().contours().end(),
-                                    [](const Contour& c) { return c.closed; });
-    if (closed && item.path().contains(p, FillRule::EvenOdd)) return &item;
-    return item.path().nearest(p).distance <= distance ? &item : nullptr;
-}
-
-void collectIn(const Item& item, const Box& box, std::vector<const Item*>& found)
-{
-    if (!item.visible() || item.locked()) return;
-    const Box bounds = item.bounds();
-    if (bounds.isNull() || !box.intersects(bounds)) return;
-    if (!item.isContainer() && !item.path().isEmpty() && box.contains(item.path().bounds())) found.push_back(&item);
-    for (const auto& child : item.children()) collectIn(*child, box, found);
-}
-
-}  // namespace
-
-const Item* ItemsCenter::itemAt(const Vec2& p, double distance) const { return topmostAt(*d_->root, p, distance); }
-
-std::vector<const Item*> ItemsCenter::itemsIn(const Box& box) const
-{
-    std::vector<const Item*> found;
-    collectIn(*d_->root, box, found);
-    return found;
-}
 
 }  // namespace jet

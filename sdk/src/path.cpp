@@ -3,10 +3,68 @@
 #include <jet/path.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <numbers>
 
 namespace jet {
+
+// Copies share the points: an undo step, the item and a snapshot for play hold the same ones. What changes a path goes
+// through the contours() that is not const and gets points of its own, unless it has them already.
+struct Path::Points {
+    std::vector<Contour> contours;
+    std::atomic<std::uint32_t> owners{1};
+};
+
+Path::Path(std::vector<Contour> contours) : points_(new Points{std::move(contours)}) {}
+
+Path::Path(const Path& other) noexcept : points_(other.points_)
+{
+    if (points_) points_->owners.fetch_add(1, std::memory_order_relaxed);
+}
+
+Path::~Path()
+{
+    if (points_ && points_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) delete points_;
+}
+
+Path& Path::operator=(const Path& other) noexcept
+{
+    if (points_ != other.points_) *this = Path(other);
+    return *this;
+}
+
+Path& Path::operator=(Path&& other) noexcept
+{
+    std::swap(points_, other.points_);
+    return *this;
+}
+
+const std::vector<Contour>& Path::contours() const
+{
+    static const std::vector<Contour> none;
+    return points_ ? points_->contours : none;
+}
+
+std::vector<Contour>& Path::contours()
+{
+    if (!points_) {
+        points_ = new Points;
+    } else if (points_->owners.load(std::memory_order_acquire) > 1) {
+        *this = Path(points_->contours);
+    }
+    return points_->contours;
+}
+
+bool Path::operator==(const Path& other) const { return contours() == other.contours(); }
+
+std::size_t Path::memory() const
+{
+    if (!points_) return 0;
+    std::size_t bytes = sizeof(Points) + points_->contours.capacity() * sizeof(Contour);
+    for (const Contour& contour : points_->contours) bytes += contour.segments.capacity() * sizeof(Segment);
+    return bytes;
+}
 
 std::size_t Contour::curveCount() const
 {
@@ -54,7 +112,7 @@ Path Path::polygon(std::span<const Vec2> points, bool closed)
 
 Path Path::line(const Vec2& a, const Vec2& b) { return polygon(std::array<Vec2, 2>{a, b}, false); }
 
-void Path::moveTo(const Vec2& p) { contours_.emplace_back().segments.emplace_back(p); }
+void Path::moveTo(const Vec2& p) { contours().emplace_back().segments.emplace_back(p); }
 
 void Path::lineTo(const Vec2& p)
 {
@@ -118,9 +176,9 @@ void Path::arcTo(const Vec2& radii, double rotation, bool largeArc, bool sweep, 
 
 void Path::close()
 {
-    if (contours_.empty() || contours_.back().segments.empty())
+    if (isEmpty() || contours().back().segments.empty())
         throw Failure(Error("A path must begin with moveTo before it can be closed."));
-    Contour& contour = contours_.back();
+    Contour& contour = contours().back();
     if (contour.closed) return;
     contour.closed = true;
     auto& segments = contour.segments;
@@ -132,31 +190,36 @@ void Path::close()
 
 Contour& Path::current()
 {
-    if (contours_.empty() || contours_.back().segments.empty())
+    if (isEmpty() || contours().back().segments.empty())
         throw Failure(Error("A path must begin with moveTo before a line or curve can be added."));
-    if (contours_.back().closed) moveTo(Vec2(contours_.back().segments.front().point));
-    return contours_.back();
+    if (contours().back().closed) moveTo(Vec2(contours().back().segments.front().point));
+    return contours().back();
 }
 
 std::size_t Path::segmentCount() const
 {
     std::size_t count = 0;
-    for (const Contour& contour : contours_) count += contour.segments.size();
+    for (const Contour& contour : contours()) count += contour.segments.size();
     return count;
 }
 
 const Segment& Path::segment(std::size_t index) const
 {
-    auto contour = contours_.begin();
-    while (assert(contour != contours_.end()), index >= contour->segments.size()) index -= (contour++)->segments.size();
+    auto contour = contours().begin();
+    while (assert(contour != contours().end()), index >= contour->segments.size())
+        index -= (contour++)->segments.size();
     return contour->segments[index];
 }
 
-Segment& Path::segment(std::size_t index) { return const_cast<Segment&>(std::as_const(*this).segment(index)); }
+Segment& Path::segment(std::size_t index)
+{
+    contours();  // makes the points this path's own
+    return const_cast<Segment&>(std::as_const(*this).segment(index));
+}
 
 bool Path::isFinite() const
 {
-    for (const Contour& contour : contours_)
+    for (const Contour& contour : contours())
         for (const Segment& s : contour.segments)
             if (!jet::isFinite(s.point) || !jet::isFinite(s.in) || !jet::isFinite(s.out)) return false;
     return true;
@@ -164,8 +227,8 @@ bool Path::isFinite() const
 
 void Path::split(std::size_t contourIndex, std::size_t curveIndex, double t)
 {
-    assert(contourIndex < contours_.size());
-    Contour& contour = contours_[contourIndex];
+    assert(contourIndex < contours().size());
+    Contour& contour = contours()[contourIndex];
     const Cubic curve = contour.curve(curveIndex);
     t = t > 0 ? std::min(t, 1.0) : 0.0;
 
@@ -191,7 +254,7 @@ void Path::split(std::size_t contourIndex, std::size_t curveIndex, double t)
 Path Path::reversed() const
 {
     Path result = *this;
-    for (Contour& contour : result.contours_) {
+    for (Contour& contour : result.contours()) {
         auto& segments = contour.segments;
         if (segments.empty()) continue;
         std::vector<int> counts;  // of the curves, which turn round with them
@@ -206,7 +269,7 @@ Path Path::reversed() const
 
 void Path::setIntermediate(int count)
 {
-    for (Contour& contour : contours_)
+    for (Contour& contour : contours())
         for (Segment& s : contour.segments) s.intermediate = std::clamp(count, 0, kMaxIntermediate);
 }
 
@@ -223,7 +286,7 @@ void transformSegment(Segment& s, const Affine& m)
 
 void Path::transform(const Affine& m)
 {
-    for (Contour& contour : contours_)
+    for (Contour& contour : contours())
         for (Segment& s : contour.segments) transformSegment(s, m);
 }
 
@@ -236,7 +299,7 @@ void Path::transform(const Affine& m, std::span<const std::size_t> segments)
 
     auto next = sorted.begin();
     std::size_t first = 0;  // index of the contour's first segment
-    for (Contour& contour : contours_) {
+    for (Contour& contour : contours()) {
         for (; next != sorted.end() && *next < first + contour.segments.size(); ++next)
             transformSegment(contour.segments[*next - first], m);
         first += contour.segments.size();

@@ -120,7 +120,7 @@ std::vector<Polyline> Path::flatten(double tolerance) const
 {
     assert(tolerance > 0);
     std::vector<Polyline> polylines;
-    for (const Contour& contour : contours_) {
+    for (const Contour& contour : contours()) {
         if (contour.segments.empty()) continue;
         Polyline& line = polylines.emplace_back();
         line.closed = contour.closed;
@@ -135,7 +135,7 @@ std::vector<Polyline> Path::flatten(double tolerance) const
 std::vector<Polyline> Path::polygonized() const
 {
     std::vector<Polyline> polylines;
-    for (const Contour& contour : contours_) {
+    for (const Contour& contour : contours()) {
         if (contour.segments.empty()) continue;
         Polyline& line = polylines.emplace_back();
         line.closed = contour.closed;

@@ -8,7 +8,7 @@ namespace jet {
 Box Path::bounds() const
 {
     Box box;
-    for (const Contour& contour : contours_) {
+    for (const Contour& contour : contours()) {
         for (const Segment& s : contour.segments) box.extend(s.point);
         for (std::size_t i = 0; i < contour.curveCount(); ++i) {
             const Cubic curve = contour.curve(i);
@@ -21,7 +21,7 @@ Box Path::bounds() const
 double Path::length() const
 {
     double sum = 0;
-    for (const Contour& contour : contours_)
+    for (const Contour& contour : contours())
         for (std::size_t i = 0; i < contour.curveCount(); ++i) sum += contour.curve(i).length();
     return sum;
 }
@@ -41,7 +41,7 @@ double sweptArea(const Cubic& curve, const Vec2& origin)
 double Path::area() const
 {
     double sum = 0;
-    for (const Contour& contour : contours_) {
+    for (const Contour& contour : contours()) {
         if (!contour.closed) continue;
         for (std::size_t i = 0; i < contour.curveCount(); ++i)
             sum += sweptArea(contour.curve(i), contour.segments.front().point);  // near: far origins cost digits
@@ -110,7 +110,7 @@ private:
 bool Path::contains(const Vec2& p, FillRule rule) const
 {
     RayCrossings crossings(p);
-    for (const Contour& contour : contours_) {
+    for (const Contour& contour : contours()) {
         for (std::size_t i = 0; i < contour.curveCount(); ++i) crossings.add(contour.curve(i));
         if (!contour.closed && contour.segments.size() > 1)
             crossings.addLine(contour.segments.back().point, contour.segments.front().point);
@@ -140,8 +140,9 @@ PathPosition Path::nearest(const Vec2& p) const
         const double distance = std::hypot(point.x() - p.x(), point.y() - p.y());
         if (distance < best.distance) best = {contour, curve, t, point, distance};
     };
-    for (std::size_t c = 0; c < contours_.size(); ++c) {
-        const Contour& contour = contours_[c];
+    const std::vector<Contour>& all = contours();
+    for (std::size_t c = 0; c < all.size(); ++c) {
+        const Contour& contour = all[c];
         if (!contour.segments.empty()) offer(c, 0, 0, contour.segments.front().point);
         for (std::size_t i = 0; i < contour.curveCount(); ++i) {
             const Cubic curve = contour.curve(i);

@@ -64,6 +64,7 @@ Scene& Project::addScene(std::string name, Filter* filter)
 {
     auto& scenes = (filter ? *filter : root_).scenes;
     scenes.push_back(std::make_unique<Scene>(std::move(name), events_, catalog_));
+    scenes.back()->setAssetFolder(folder().string());
     if (files_->watcher) files_->watcher->sceneAdded(*scenes.back());
     return *scenes.back();
 }

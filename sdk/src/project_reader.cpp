@@ -116,6 +116,7 @@ private:
             readSceneText(std::move(text), file.string(), project_.events_, project_.catalog_, project_.notes_);
         if (!scene) throw Failure(scene.error());
         (*scene)->setName(name);
+        (*scene)->setAssetFolder(project_.folder().string());
         (*scene)->undoRedo().markClean();
         project_.sceneFiles_[scene->get()] = relative;
         filter.scenes.push_back(std::move(*scene));

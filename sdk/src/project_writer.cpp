@@ -270,6 +270,7 @@ Result<void> Project::saveAs(const fs::path& folderOrFile)
         obsoleteFiles_ = oldObsolete;
         files_->known = oldKnown;
     }
+    for (Scene* scene : scenes()) scene->setAssetFolder(folder().string());
     return written;
 }
 

@@ -60,18 +60,19 @@ std::string shown(const Value& value, const std::string& unit)
 
 Result<void> PropertySpec::check(const Value& value) const
 {
-    const std::string name = "Property \"" + id + "\"";
+    const auto fail = [&](const std::string& must, const std::string& has) {
+        return Error("Property \"" + id + "\" must be " + must + ", but " + has + ".");
+    };
     if (!isKind(value, kind)) {
         std::string has(kindName(value.kind()));
         if (!value.isNone()) has += ", " + shown(value, "");
-        return Error(name + " must be " + std::string(kindName(kind)) + ", but has " + has + ".");
+        return fail(std::string(kindName(kind)), "has " + has);
     }
-    if (!isFiniteValue(value)) return Error(name + " must be finite, but is " + shown(value, unit) + ".");
+    if (!isFiniteValue(value)) return fail("finite", "is " + shown(value, unit));
     if (!isInRange(value, minimum, maximum))
-        return Error(name + " must be " + rangeText(minimum, maximum) + (unit.empty() ? "" : ' ' + unit) + ", but is " +
-                     shown(value, unit) + ".");
-    if (kind == ValueKind::Choice && std::ranges::find(choices, value.as<std::string>()) == choices.end())
-        return Error(name + " must be one of " + listText(choices) + ", but is " + shown(value, "") + ".");
+        return fail(rangeText(minimum, maximum) + (unit.empty() ? "" : ' ' + unit), "is " + shown(value, unit));
+    if (kind == ValueKind::Choice && std::ranges::find(choices, *value.get<std::string>()) == choices.end())
+        return fail("one of " + listText(choices), "is " + shown(value, ""));
     return {};
 }
 

@@ -60,6 +60,7 @@ std::unique_ptr<Scene> Scene::clone(EventsCenter& events) const
     copyChildren(root(), builder.root(), builder);
     copy->settings_ = settings_;
     copy->materials_ = materials_;
+    copy->assetFolder_ = assetFolder_;
     return copy;
 }
 
@@ -95,7 +96,7 @@ std::uint64_t Scene::hash() const
 Item& SceneBuilder::add(Item& parent, ItemId id, std::string_view type)
 {
     auto& d = *scene_.items().d_;
-    if (id && d.byId.contains(id.value))
+    if (id && d.byId.find(id.value))
         throw Failure(
             Error("the id " + std::to_string(id.value) + " is used by another item, '" + d.get(id).name() + "'"));
     auto item = std::make_unique<Item>(id ? id : ItemId{d.nextId}, type);
@@ -108,7 +109,7 @@ Item& SceneBuilder::add(Item& parent, ItemId id, std::string_view type)
 Item& SceneBuilder::root() { return *scene_.items().d_->root; }
 void SceneBuilder::setName(Item& item, std::string name) { Item::Mutator::setName(item, std::move(name)); }
 void SceneBuilder::setFlags(Item& item, bool visible, bool locked) { Item::Mutator::setFlags(item, visible, locked); }
-void SceneBuilder::setPath(Item& item, Path path) { Item::Mutator::setPath(item, std::move(path)); }
+void SceneBuilder::setPath(Item& item, Path path) { scene_.items().d_->setPath(item, path); }
 void SceneBuilder::setProperties(Item& item, Properties properties)
 {
     Item::Mutator::setProperties(item, std::move(properties));

@@ -43,18 +43,15 @@ void paintOne(const Scene& scene, const Item& item, const Path& path, const Live
     }
 }
 
-void paintTree(const Scene& scene, const Item& item, const PoseSource* poses, PaintPurpose purpose, const Box& clip,
+void paintTree(const Scene& scene, const Item& item, const PoseSource& poses, PaintPurpose purpose, const Box& clip,
                Painter& painter)
 {
     if (!item.visible()) return;
-    const Path* pose = poses ? poses->pose(item) : nullptr;
     if (!item.path().isEmpty()) {
+        const Path* pose = poses.pose(item);
         const Path& path = pose ? *pose : item.path();
-        // Strokes reach beyond the path's own bounds; a generous margin costs less than a missing edge.
-        const Box box = path.bounds();
-        const double margin = 0.25 * std::max(box.width(), box.height()) + 32;
-        if (clip.intersects(box.inflated(margin)))
-            paintOne(scene, item, path, poses ? poses->liveBody(item) : nullptr, purpose, painter);
+        if (clip.intersects(paintedArea(path.bounds())))
+            paintOne(scene, item, path, poses.liveBody(item), purpose, painter);
     }
     for (const auto& child : item.children()) paintTree(scene, *child, poses, purpose, clip, painter);
 }
@@ -68,7 +65,9 @@ void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurp
 
 void paintScene(const Scene& scene, const PoseSource* poses, PaintPurpose purpose, const Box& clip, Painter& painter)
 {
-    paintTree(scene, scene.root(), poses, purpose, clip, painter);
+    painter.setAssetFolder(scene.assetFolder());
+    if (poses) return paintTree(scene, scene.root(), *poses, purpose, clip, painter);
+    for (const Item* item : scene.items().query(clip)) paintItem(scene, *item, item->path(), purpose, painter);
 }
 
 }  // namespace jet

@@ -1,3 +1,4 @@
+#include "scene_fast_reader.hpp"
 #include "scene_state.hpp"
 #include "xml_text.hpp"
 
@@ -232,11 +233,33 @@ private:
     std::set<std::string> noted_;
 };
 
+/// What JET wrote itself is read without a document tree, several times as fast. Null where that is not so, or
+/// something is wrong: then the thorough reader tells what.
+std::unique_ptr<Scene> readOwnText(const std::string& text, const std::string& file, EventsCenter& events,
+                                   Catalog& catalog, std::vector<FormatNote>& notes)
+{
+    const std::size_t items = itemsOf(text);
+    if (items == std::string::npos) return nullptr;
+    auto scene = std::make_unique<Scene>("", events, catalog);
+    std::vector<FormatNote> remarks;
+    try {
+        XmlSource head(file, text.substr(0, items) + "</scene>\n");
+        if (!head.parse()) return nullptr;
+        SceneTextReader(head, *scene, catalog, remarks).read();
+        if (!readItems(std::string_view(text).substr(items), *scene)) return nullptr;
+    } catch (const Failure&) {
+        return nullptr;
+    }
+    notes.insert(notes.end(), remarks.begin(), remarks.end());
+    return scene;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Scene>> readSceneText(std::string text, const std::string& file, EventsCenter& events,
                                              Catalog& catalog, std::vector<FormatNote>& notes)
 {
+    if (auto own = readOwnText(text, file, events, catalog, notes)) return own;
     XmlSource source(file, std::move(text));
     if (const auto parsed = source.parse(); !parsed) return parsed.error();
     auto scene = std::make_unique<Scene>("", events, catalog);

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "item_mutator.hpp"
+#include "spatial_index.hpp"
 
 #include <jet/catalog.hpp>
 #include <jet/item_type.hpp>
 #include <jet/scene.hpp>
 
+#include <algorithm>
+#include <deque>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -19,13 +22,56 @@ inline constexpr std::uint64_t kMaximumId = (std::uint64_t{1} << 53) - 1;
 /// Items nested deeper are refused, in files and in transactions alike, so that what was made can be saved and read.
 inline constexpr std::size_t kMaximumDepth = 1000;
 
-struct OpenTransaction {
+/// A selection as it was at some moment; shared by all who remember that moment.
+using SelectionPtr = std::shared_ptr<const std::vector<ItemId>>;
+
+/// Items by id. Ids are given in sequence, so most find their item at that place of a vector.
+class IdTable {
+public:
+    Item* find(std::uint64_t id) const
+    {
+        if (id < dense_.size() && dense_[id]) return dense_[id];
+        if (sparse_.empty()) return nullptr;
+        const auto found = sparse_.find(id);
+        return found == sparse_.end() ? nullptr : found->second;
+    }
+    void insert(std::uint64_t id, Item* item)
+    {
+        ++size_;
+        if (id >= 4 * size_ + 1024) {
+            sparse_.emplace(id, item);
+            return;
+        }
+        if (id >= dense_.size()) dense_.resize(std::max<std::size_t>(id + 1, dense_.size() + dense_.size() / 2));
+        dense_[id] = item;
+    }
+    void erase(std::uint64_t id)
+    {
+        --size_;
+        if (id < dense_.size() && dense_[id]) {
+            dense_[id] = nullptr;
+        } else {
+            sparse_.erase(id);
+        }
+    }
+    std::size_t size() const { return size_; }
+
+private:
+    std::vector<Item*> dense_;
+    std::unordered_map<std::uint64_t, Item*> sparse_;
+    std::size_t size_ = 0;
+};
+
+/// A transaction that is open, or one nested in it: a savepoint of its changes.
+struct OpenLevel {
     std::uint64_t serial = 0;
     std::string label;
-    std::vector<Change> changes;
-    std::vector<ItemId> selectionBefore;
+    std::size_t changesBefore = 0;
+    SelectionPtr selectionBefore;
     std::uint64_t nextIdBefore = 0;
 };
+
+struct UndoStep;
 
 struct ItemsCenter::Private {
     Private(Scene& s, EventsCenter& e, Catalog& c);
@@ -34,13 +80,14 @@ struct ItemsCenter::Private {
     EventsCenter& events;
     Catalog& catalog;
     std::unique_ptr<Item> root;
-    std::unordered_map<std::uint64_t, Item*> byId;
+    IdTable byId;
     std::uint64_t nextId = 1;
     std::unordered_set<std::uint64_t> selected;
-    mutable std::vector<ItemId>
-        ordered;  // the same in the order selected; what was removed since leaves it when asked for
+    mutable SelectionPtr ordered;         // the same in the order selected
+    mutable bool selectionStale = false;  // selected items were removed since: they leave `ordered` when asked for
     std::uint64_t serial = 0;
-    std::optional<OpenTransaction> open;
+    std::vector<OpenLevel> levels;  // outermost first; none: no transaction is open
+    std::vector<Change> changes;    // of all levels, in the order made
 
     Item& get(ItemId id);
     /// Is it this very item of this scene's tree?
@@ -56,54 +103,97 @@ struct ItemsCenter::Private {
     /// Makes the change and records it in the open transaction.
     void make(Change change);
     void revert(Change& change);
-    void revertAll();
     /// Takes back the open transaction's changes after the first `count`.
     void revertTo(std::size_t count);
+    /// Takes back what a level and those in it did; it stays open.
+    void revertLevel(std::size_t level);
+    /// Closes a level and those in it. Of the outermost: tells of what is pending.
+    void closeLevels(std::size_t level);
     /// Where a call that makes several changes began, to take them back when it fails half-way.
     class Savepoint {
     public:
         explicit Savepoint(Private& d)
-            : d_(d), changes_(d.open->changes.size()), nextId_(d.nextId), selection_(d.selection())
+            : d_(d), changes_(d.changes.size()), nextId_(d.nextId), selection_((d.selection(), d.ordered))
         {
         }
         void restore() const
         {
             d_.revertTo(changes_);
             d_.nextId = nextId_;
-            d_.setSelection(selection_);
-            d_.notifyTouched();
+            d_.restoreSelection(selection_);
         }
 
     private:
         Private& d_;
         std::size_t changes_;
         std::uint64_t nextId_;
-        std::vector<ItemId> selection_;
+        SelectionPtr selection_;
     };
 
+    void setPath(Item& item, const Path& path);
     void insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item);
     std::unique_ptr<Item> take(ItemId id);
+    void moveItem(ItemId from, std::size_t fromIndex, ItemId to, std::size_t toIndex);
 
     const std::vector<ItemId>& selection() const;
     void setSelection(std::vector<ItemId> items);
-    void notifyTouched();
-    void notifyChanged(std::span<const Change> changes, ItemsChanged::Cause cause);
+    void restoreSelection(const SelectionPtr& before);
+
+    // --- where items are
+
+    SpatialIndex index;
+    bool indexed = false;     // the index knows the items; it is made when first asked
+    bool orderValid = false;  // every Item::order_ is its place in painting order
+    void makeIndex();
+    /// Sorts bottom first.
+    void sortByOrder(std::vector<const Item*>& items);
+
+    // --- events: kept back while something is under way
+
+    bool touched = false, selectionTouched = false;  // not told yet
+    bool scheduled = false;                          // a task is queued that will tell
+    int undoing = 0;
+    std::shared_ptr<int> alive = std::make_shared<int>();  // lets queued tasks know that this is gone
+    void noteTouched();
+    void noteSelection();
+    void tellLater();
+    void tell();
+    /// Sends what is pending, then ItemsChanged and HistoryChanged for a step. Steps are told in the order made, each
+    /// to all listeners before the next: what a listener does meanwhile is told when it is the turn of that.
+    void announce(std::shared_ptr<UndoStep> step, std::size_t firstChange, ItemsChanged::Cause cause);
+    struct Announcement {
+        std::shared_ptr<UndoStep> step;
+        std::size_t firstChange;
+        ItemsChanged::Cause cause;
+    };
+    std::deque<Announcement> announcements;
+    bool announcing = false;
 };
 
 struct UndoStep {
     std::string label, mergeKey;
     std::vector<Change> changes;
-    std::vector<ItemId> selectionBefore, selectionAfter;
+    SelectionPtr selectionBefore, selectionAfter;
+    std::size_t bytes = 0;
 };
 
 struct UndoRedoCenter::Private {
     ItemsCenter* items = nullptr;
-    std::vector<UndoStep> steps;
+    std::deque<std::shared_ptr<UndoStep>> steps;  // shared with who tells of a step: listeners may make new ones
     std::size_t done = 0;
     std::ptrdiff_t clean = 0;  // number of done steps at the saved state; -1: unreachable
+    std::size_t bytes = 0, limit = kDefaultMemoryLimit, forgotten = 0;
 
-    void push(UndoStep step);
+    /// Returns the step and the first of its changes that are new.
+    std::pair<std::shared_ptr<UndoStep>, std::size_t> push(UndoStep step);
+    void merge(UndoStep& step);
+    void count(UndoStep& step);
+    void forgetOldest();
+    void notify() const;
 };
+
+/// Memory a subtree takes, in bytes: an estimate.
+std::size_t memoryOf(const Item* subtree);
 
 /// The item type's table, from the SDK or a plugin; null when its plugin is absent.
 const PropertyTable* itemTable(Catalog& catalog, std::string_view type);

@@ -63,12 +63,34 @@ Transaction::Transaction(Transaction&& other) noexcept
 
 Transaction::~Transaction() { rollback(); }
 
-bool Transaction::isOpen() const { return center_ && center_->d_->open && center_->d_->open->serial == serial_; }
-bool Transaction::isEmpty() const { return !isOpen() || center_->d_->open->changes.empty(); }
+namespace {
+
+/// The place of the transaction of that serial among the open ones; none when it is no longer open.
+std::optional<std::size_t> levelOf(const std::vector<OpenLevel>& levels, std::uint64_t serial)
+{
+    for (std::size_t i = levels.size(); i-- > 0;)
+        if (levels[i].serial == serial) return i;
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool Transaction::isOpen() const { return center_ && levelOf(center_->d_->levels, serial_); }
+
+bool Transaction::isEmpty() const
+{
+    if (!isOpen()) return true;
+    const auto& d = *center_->d_;
+    return d.changes.size() == d.levels[*levelOf(d.levels, serial_)].changesBefore;
+}
 
 ItemsCenter& Transaction::open() const
 {
     if (!isOpen()) fail("the transaction is no longer open");
+    const auto& levels = center_->d_->levels;
+    if (levels.back().serial != serial_)
+        fail("finish or cancel '" + levels.back().label + "' first, which was begun inside of '" +
+             levels[*levelOf(levels, serial_)].label + "'");
     return *center_;
 }
 
@@ -238,11 +260,11 @@ void Transaction::transform(const Item& item, const Affine& m)
     auto& d = *open().d_;
     d.own(item);
     if (m.isIdentity()) return;
-    const ItemsCenter::Private::Savepoint before(d);
+    const std::size_t before = d.changes.size();
     try {
         transformTree(*this, item, m);
     } catch (...) {
-        before.restore();
+        d.revertTo(before);
         throw;
     }
 }
@@ -369,30 +391,42 @@ void Transaction::commit(std::string_view mergeKey)
 {
     ItemsCenter& center = open();
     auto& d = *center.d_;
-    center_ = nullptr;
-    OpenTransaction finished = std::move(*d.open);
-    d.open.reset();
-    if (finished.changes.empty()) return;
-    UndoStep step{std::move(finished.label), std::string(mergeKey), std::move(finished.changes),
-                  std::move(finished.selectionBefore), d.selection()};
+    if (d.levels.size() > 1) {  // what it did is now the outer one's
+        d.levels.pop_back();
+        center_ = nullptr;
+        return;
+    }
+    OpenLevel& level = d.levels.front();
+    if (d.changes.empty()) {
+        center_ = nullptr;
+        return d.closeLevels(0);
+    }
+    d.selection();  // without those that were removed
     auto& history = *d.scene.undoRedo().d_;
-    const std::size_t count = step.changes.size();
-    history.push(std::move(step));
-    const auto& changes = history.steps.back().changes;
-    d.notifyChanged(std::span(changes).last(std::min(count, changes.size())), ItemsChanged::Cause::Commit);
+    const auto [step, first] =
+        history.push(UndoStep{std::move(level.label), std::string(mergeKey), std::exchange(d.changes, {}),
+                              std::move(level.selectionBefore), d.ordered});
+    center_ = nullptr;
+    d.levels.clear();
+    if (d.indexed) d.index.settle();
+    d.announce(step, first, ItemsChanged::Cause::Commit);
 }
 
 void Transaction::rollback()
 {
-    if (isOpen()) center_->abandon();
+    if (isOpen()) {
+        auto& d = *center_->d_;
+        const std::size_t level = *levelOf(d.levels, serial_);
+        d.revertLevel(level);
+        d.closeLevels(level);
+    }
     center_ = nullptr;
 }
 
 void Transaction::restart()
 {
     auto& d = *open().d_;
-    d.revertAll();
-    d.notifyTouched();
+    d.revertLevel(d.levels.size() - 1);
 }
 
 }  // namespace jet

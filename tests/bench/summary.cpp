@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <vector>
 
@@ -67,6 +68,13 @@ int run(int argc, char** argv, const std::function<void(const Times&, Summary&)>
     if (file.empty()) return 0;
     std::ofstream(file) << summary.json().dump(2) << "\n";
     return 0;
+}
+
+double processorSeconds()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double residentMegabytes() { return statusMegabytes("VmRSS:"); }

@@ -29,6 +29,9 @@ using Times = std::map<std::string, double>;
 /// Runs the registered benchmarks, then `summarize`, which turns their times into figures. Returns the exit code.
 int run(int argc, char** argv, const std::function<void(const Times&, Summary&)>& summarize);
 
+/// Processor time this thread has taken: other programs on the machine do not count.
+double processorSeconds();
+
 /// Resident memory of this process, now and at most, in MB.
 double residentMegabytes();
 double peakMegabytes();

@@ -86,6 +86,50 @@ TEST_F(InspectorTest, ExactNumbersAreKeptAndOutOfRangeIsBounded)
     EXPECT_EQ(enter("0,5"), 0.5);
 }
 
+TEST_F(InspectorTest, NumberFieldsCalculateAndShowWhatIsWrongBesideThem)
+{
+    scene().items().setSelection({});
+    ASSERT_TRUE(eventually([&] { return editor("time-step") != nullptr; }));
+    auto* step = editor("time-step")->findChild<QAbstractSpinBox*>();
+    const auto enter = [&](const char* text) {
+        step->selectAll();
+        QTest::keyClicks(step, text);
+        QTest::keyClick(step, Qt::Key_Return);
+        return scene().setting("time-step").as<double>();
+    };
+    EXPECT_EQ(enter("1/4"), 0.25);
+    EXPECT_EQ(enter("50%"), 0.125);
+    EXPECT_EQ(enter("20 ms"), 0.02);
+    EXPECT_EQ(enter("20 mm"), 0.02);
+    EXPECT_EQ(step->toolTip().toStdString(), "\"mm\" is no unit of this field; it takes s, ms, min.");
+    EXPECT_EQ(step->findChild<QLineEdit*>()->text().toStdString(), "20 mm") << "what was typed stays, to be mended";
+    EXPECT_EQ(enter("0.5"), 0.5);
+    EXPECT_NE(step->toolTip().toStdString(), "\"mm\" is no unit of this field; it takes s, ms, min.");
+}
+
+TEST_F(InspectorTest, ItemsOfSeveralTypesAreEditedInWhatTheyHaveInCommon)
+{
+    ItemId spring, rspring;
+    {
+        auto edit = scene().items().begin("Springs");
+        spring = edit.add<SpringItem>(scene().root(), Path::line({0, 0}, {10, 0})).id();
+        rspring = edit.add<RSpringItem>(scene().root(), Path::line({0, 0}, {10, 0})).id();
+        const ItemId sound = edit.add<SoundItem>(scene().root()).id(), image = edit.add<ImageItem>(scene().root()).id();
+        edit.setSelection({sound, image});
+        edit.commit();
+    }
+    ASSERT_TRUE(eventually([&] { return editor("file") != nullptr; }));
+    EXPECT_EQ(editor("volume"), nullptr);
+    auto* file = editor("file")->findChild<QLineEdit*>();
+    QTest::keyClicks(file, "a.dat");
+    QTest::keyClick(file, Qt::Key_Return);
+    for (const ItemId id : scene().items().selection())
+        EXPECT_EQ(scene().items().find(id)->property("file"), Value("a.dat"));
+    scene().items().setSelection({spring, rspring});
+    EXPECT_TRUE(eventually([&] { return editor("file") == nullptr; }));
+    EXPECT_EQ(editor("ks"), nullptr) << "force/unit is not torque/rad";
+}
+
 TEST_F(InspectorTest, WithNothingSelectedTheSceneIsShown)
 {
     EXPECT_EQ(editor("gravity"), nullptr);

@@ -51,14 +51,6 @@ TEST_F(ItemsCenterTest, AnExceptionRestoresEverything)
     EXPECT_EQ(scene.hash(), before);
 }
 
-TEST_F(ItemsCenterTest, ASecondTransactionIsRefusedNamingBoth)
-{
-    auto edit = items().begin("Drag");
-    EXPECT_EQ(failure([&] { (void)items().begin("Paste"); }),
-              "'Paste' cannot start while 'Drag' is under way; finish or cancel that first");
-    EXPECT_TRUE(edit.isOpen());
-}
-
 TEST_F(ItemsCenterTest, AFinishedTransactionRefusesFurtherWork)
 {
     auto edit = items().begin("Add");
@@ -459,19 +451,48 @@ TEST_F(ItemsCenterTest, EachCommitUndoAndRedoIsToldOnceWithItsChanges)
               (std::vector<std::pair<Cause, std::size_t>>{{Cause::Commit, 2}, {Cause::Undo, 2}, {Cause::Redo, 2}}));
 }
 
-TEST_F(ItemsCenterTest, TheSceneSaysThatItLooksDifferentInsideATransactionToo)
+TEST_F(ItemsCenterTest, AnOpenTransactionIsToldOfBetweenItsCallsAndOnce)
 {
     int touched = 0, selected = 0;
     const auto a = events.subscribe<SceneTouched>(&scene, [&](const SceneTouched&) { ++touched; });
     const auto b = events.subscribe<SelectionChanged>(&scene, [&](const SelectionChanged&) { ++selected; });
     auto edit = items().begin("Drag");
     const Item& shape = edit.add<ShapeItem>(layer());
-    EXPECT_EQ(touched, 1);
+    edit.set(shape, "name", "Moved");
     edit.select(shape);
+    EXPECT_EQ(touched + selected, 0) << "nothing is told in the middle of it";
+    events.dispatchQueued();
+    EXPECT_EQ(touched, 1);
     EXPECT_EQ(selected, 1);
+    events.dispatchQueued();
+    EXPECT_EQ(touched, 1) << "nothing has happened since";
     edit.rollback();
-    EXPECT_EQ(touched, 2);
+    EXPECT_EQ(touched, 2) << "at once: nothing is open any more";
     EXPECT_EQ(selected, 2);
+}
+
+TEST_F(ItemsCenterTest, ListenersSeeWholeStepsOnly)
+{
+    const Item& shape = addBox(Box({0, 0}, {1, 1}));
+    const ItemId id = shape.id();
+    std::vector<std::string> seen;
+    const auto look = [&](const auto&) {
+        EXPECT_FALSE(items().inTransaction());
+        const Item* item = items().find(id);
+        seen.push_back(item ? item->name() + (item->locked() ? " locked" : "") : "gone");
+    };
+    const auto a = events.subscribe<SceneTouched>(&scene, look);
+    const auto b = events.subscribe<ItemsChanged>(&scene, look);
+    const auto c = events.subscribe<SelectionChanged>(&scene, look);
+    auto edit = items().begin("Two changes");
+    edit.set(shape, "name", "Both");
+    edit.set(shape, "locked", true);
+    edit.select(shape);
+    edit.commit();
+    EXPECT_EQ(seen, std::vector<std::string>(3, "Both locked"));
+    seen.clear();
+    history().undo();
+    EXPECT_EQ(seen, std::vector<std::string>(3, "Shape 2"));
 }
 
 // --- picking

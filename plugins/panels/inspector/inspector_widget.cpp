@@ -30,8 +30,8 @@ const PropertyTable& commonTable()
 const PropertyTable& geometryTable()
 {
     static const PropertyTable table{
-        vector("position", "Position", {0, 0}).says("Top-left corner of the bounding box."),
-        vector("size", "Size", {0, 0}).range(0, 1e9).says("Of the bounding box."),
+        vector("position", "Position", {0, 0}).in("units").says("Top-left corner of the bounding box."),
+        vector("size", "Size", {0, 0}).in("units").range(0, 1e9).says("Of the bounding box."),
     };
     return table;
 }
@@ -189,8 +189,8 @@ void InspectorWidget::changeGeometry(const PropertySpec& spec, const Value& valu
 
 void InspectorWidget::addTypeSection()
 {
-    const ItemType* type = subject_.type().empty() ? nullptr : typeOf(editor_.catalog(), subject_.type());
-    if (!type || type->properties().specs().empty()) return;
+    const std::vector<PropertySpec> shared = sharedProperties(editor_.catalog(), subject_.types());
+    if (shared.empty()) return;
     Section& section = addSection(translated("Properties"));
     const bool oneScript = subject_.type() == ScriptItem::type && subject_.items().size() == 1;
     if (oneScript) {
@@ -200,13 +200,16 @@ void InspectorWidget::addTypeSection()
         section.addContent(open);
         return;
     }
-    addForm(
-        section, type->properties(),
-        [this](const PropertySpec& spec) { return subject_.common(spec.id, spec.fallback); },
-        [this](const PropertySpec& spec, const Value& value, EditPhase phase) {
-            editItems("Change " + spec.label, spec.id, phase,
-                      [&](Transaction& e, const Item& item) { e.set(item, spec.id, value); });
-        });
+    const auto source = [this](const PropertySpec& spec) { return subject_.common(spec.id, spec.fallback); };
+    const auto handler = [this](const PropertySpec& spec, const Value& value, EditPhase phase) {
+        editItems("Change " + spec.label, spec.id, phase,
+                  [&](Transaction& e, const Item& item) { e.set(item, spec.id, value); });
+    };
+    if (!subject_.type().empty()) {
+        addForm(section, typeOf(editor_.catalog(), subject_.type())->properties(), source, handler);
+        return;
+    }
+    for (const PropertySpec& spec : shared) addForm(section, PropertyTable{spec}, source, handler);
 }
 
 // --- effects

@@ -46,6 +46,22 @@ const ItemType* typeOf(Catalog& catalog, const std::string& type)
     return builtIn ? builtIn : catalog.itemType(type);
 }
 
+std::vector<PropertySpec> sharedProperties(Catalog& catalog, const std::set<std::string>& types)
+{
+    std::optional<std::vector<PropertySpec>> shared;
+    for (const std::string& id : types) {
+        const ItemType* type = typeOf(catalog, id);
+        if (!type) return {};
+        const PropertyTable& table = type->properties();
+        if (!shared) shared.emplace(table.specs().begin(), table.specs().end());
+        std::erase_if(*shared, [&](const PropertySpec& spec) {
+            const PropertySpec* other = table.find(spec.id);
+            return !other || other->kind != spec.kind || other->unit != spec.unit || other->choices != spec.choices;
+        });
+    }
+    return std::move(shared).value_or(std::vector<PropertySpec>());
+}
+
 Subject::Subject(const Scene& scene)
 {
     for (const ItemId id : scene.items().selection()) {
@@ -56,13 +72,14 @@ Subject::Subject(const Scene& scene)
     effects_ = effectsOf(*items_.front());
     for (const Item* item : items_) {
         if (item->type() != type_) type_.clear();
+        types_.insert(item->type());
         std::erase_if(effects_, [&](const SharedEffect& effect) { return !indexOf(*item, effect); });
     }
 }
 
 bool Subject::sameOutline(const Subject& other) const
 {
-    return isEmpty() == other.isEmpty() && (items_.size() > 1) == (other.items_.size() > 1) && type_ == other.type_ &&
+    return isEmpty() == other.isEmpty() && (items_.size() > 1) == (other.items_.size() > 1) && types_ == other.types_ &&
            effects_ == other.effects_;
 }
 

@@ -7,6 +7,7 @@
 #include <jet/scene.hpp>
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ public:
     const std::vector<const Item*>& items() const { return items_; }
     /// The type all have; empty when they differ.
     const std::string& type() const { return type_; }
+    const std::set<std::string>& types() const { return types_; }
     const std::vector<SharedEffect>& effects() const { return effects_; }
     /// Equal outlines need the same editors.
     bool sameOutline(const Subject& other) const;
@@ -41,11 +43,14 @@ public:
 private:
     std::vector<const Item*> items_;
     std::string type_;
+    std::set<std::string> types_;
     std::vector<SharedEffect> effects_;
 };
 
 /// Index of the effect on the item, if it has it.
 std::optional<std::size_t> indexOf(const Item& item, const SharedEffect& effect);
+/// What the types declare alike: the table of the only one, or what their tables have in common.
+std::vector<PropertySpec> sharedProperties(Catalog& catalog, const std::set<std::string>& types);
 /// Of the SDK or of a plugin; null when the plugin is absent.
 const ItemType* typeOf(Catalog& catalog, const std::string& type);
 

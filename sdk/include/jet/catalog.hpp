@@ -89,7 +89,8 @@ public:
     virtual void recall(const PluginUse& use);
 };
 
-/// The item types every scene knows (SPEC IT1-IT8), by id; null for others. They are part of the SDK, not of a plugin.
+/// The item types every scene knows (SPEC IT1-IT9, images and text), by id; null for others. They are part of the SDK,
+/// not of a plugin.
 JET_API const ItemType* builtInItemType(std::string_view id);
 JET_API std::vector<std::string_view> builtInItemTypeIds();
 

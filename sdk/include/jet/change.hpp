@@ -76,5 +76,7 @@ using Change = std::variant<ItemAdded, ItemRemoved, ItemMoved, PathChanged, Prop
 
 /// The item a change is about; none for changes of the scene itself.
 JET_API ItemId changedItem(const Change& change);
+/// Memory the change keeps, in bytes: an estimate for the history's budget.
+JET_API std::size_t memoryOf(const Change& change);
 
 }  // namespace jet

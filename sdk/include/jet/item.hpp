@@ -15,7 +15,7 @@ namespace jet {
 class Item;
 class ItemsCenter;
 
-// The item kinds of the SDK (SPEC IT1-IT8), as tags for Transaction::add<Kind>() and Item::is<Kind>().
+// The item kinds of the SDK (SPEC IT1-IT9, images and text), as tags for Transaction::add<Kind>() and Item::is<Kind>().
 struct GroupItem {
     static constexpr std::string_view type = "group";
 };
@@ -40,6 +40,18 @@ struct SpringItem {
 /// An angular spring; first, middle and last segment are a, centre and b.
 struct RSpringItem {
     static constexpr std::string_view type = "rspring";
+};
+/// A sound file, played from scripts or when play starts (thesis §3).
+struct SoundItem {
+    static constexpr std::string_view type = "sound";
+};
+/// A picture from a file, spread over the frame its path's first segments span (see frameOf()).
+struct ImageItem {
+    static constexpr std::string_view type = "image";
+};
+/// Lines of text in a frame.
+struct TextItem {
+    static constexpr std::string_view type = "text";
 };
 /// A torque about the centre of its bounding box (thesis §3.4.7). Positive "value" turns left, as in the thesis's §4.3.
 struct TorqueItem {
@@ -130,6 +142,9 @@ private:
     bool visible_ = true;
     bool locked_ = false;
     mutable bool boundsValid_ = false;
+    mutable std::uint32_t index_ = 0;  // where it was last found among its siblings: a hint
+    mutable std::uint32_t order_ = 0;  // place in painting order, as the scene last counted it
+    std::uint32_t slot_ = ~0U;         // in the scene's spatial index
     mutable Box bounds_;
     std::uint64_t revision_ = 0;
 };
@@ -139,5 +154,10 @@ JET_API const Item* findByName(const Item& root, std::string_view name);
 /// Nearest by that name (thesis §3.4.5): siblings, then their subtrees, then the same one level up, and so on.
 JET_API const Item* findClosestByName(const Item& from, std::string_view name);
 JET_API const Item& topGroup(const Item& item);
+/// Is `a` painted before `b`, which is in the same tree? A parent comes before its children.
+JET_API bool isPaintedBefore(const Item& a, const Item& b);
+/// The frame of an image or text: maps the unit square (y down) to the parallelogram of the path's first, second and
+/// last segment, so that it turns and scales with the path; to the bounding box when the path has fewer than four.
+JET_API Affine frameOf(const Path& path);
 
 }  // namespace jet

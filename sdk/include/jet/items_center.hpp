@@ -6,7 +6,14 @@
 //   edit.commit();                     // leaving without commit, or by an exception, restores everything
 //
 // Grammar: begin · (add | remove | set… | select)* · (commit | rollback); restart() goes back to just after begin, for
-// drags. One transaction is open at a time. All of it belongs to the thread that owns the scene.
+// drags. All of it belongs to the thread that owns the scene.
+//
+// Transactions nest: begin() while one is open opens an inner one, a savepoint of the outer. Its rollback takes back
+// its own part only, its commit hands that part to the outer one; the outermost commit makes the one undo step. While
+// an inner transaction is open, the outer ones can only be rolled back, and the inner one with them.
+//
+// Events are sent when the outermost transaction has ended, never inside it; only SceneTouched and SelectionChanged
+// also tell of an open one, at the owner's next dispatchQueued(), between the calls of who makes it.
 #pragma once
 
 #include <jet/change.hpp>
@@ -32,13 +39,28 @@ struct ItemsChanged {
     const Scene* scene;
     std::span<const Change> changes;  ///< in the order made; for Undo they have been reverted
     Cause cause;
+
+    /// What subscribeCoalesced() delivers.
+    struct JET_API Burst {
+        const Scene* scene = nullptr;
+        std::vector<ItemId> items;  ///< what was changed, added, removed or moved, each once, by id
+        bool tree = false;          ///< items were added, removed or moved
+        bool settings = false;      ///< settings or materials were changed
+        void add(const ItemsChanged& event);
+    };
 };
-/// Sent by the Scene whenever it looks different, also inside an open transaction (many times: coalesce).
+/// Sent by the Scene when it looks different: after commit, rollback, undo and redo, before ItemsChanged; and while a
+/// transaction is open at each dispatchQueued() that finds it changed since, once however much was changed.
 struct SceneTouched {
     static constexpr EventType type{"org.jet.scene-touched"};
     const Scene* scene;
 };
-/// Sent by the Scene when its selection changed.
+/// Sent by the Scene when its history changed: steps, position or the saved state.
+struct HistoryChanged {
+    static constexpr EventType type{"org.jet.history-changed"};
+    const Scene* scene;
+};
+/// Sent by the Scene when its selection changed. Inside a transaction as SceneTouched is.
 struct SelectionChanged {
     static constexpr EventType type{"org.jet.selection-changed"};
     const Scene* scene;
@@ -90,7 +112,8 @@ public:
     void setSelection(std::vector<ItemId> items);
 
     /// Makes it one undo step. With a merge key, joins the previous step if that has the same key and nothing came
-    /// between (a slider drag, arrow-key nudges). Without any change no step is made.
+    /// between (a slider drag, arrow-key nudges). Without any change no step is made. An inner transaction's key is not
+    /// used: the outer one's counts.
     void commit(std::string_view mergeKey = {});
     void rollback();
     /// Back to the state just after begin(), still open: a drag re-applies its whole movement each time, without drift.
@@ -115,10 +138,12 @@ public:
     ItemsCenter(const ItemsCenter&) = delete;
     ItemsCenter& operator=(const ItemsCenter&) = delete;
 
-    /// Opens a transaction. Throws Failure while another is open (naming both).
+    /// Opens a transaction; inside of the open one, if there is one.
     [[nodiscard]] Transaction begin(std::string_view label);
     bool inTransaction() const;
-    /// Rolls an open transaction back, whoever holds it: for the guard, after a plugin failed half-way.
+    /// Label of the outermost open transaction; empty if none.
+    std::string transactionLabel() const;
+    /// Rolls all open transactions back, whoever holds them: for the guard, after a plugin failed half-way.
     void abandon();
 
     /// The scene's implicit top group (thesis §3.4.1); never removed, not shown in the Layers panel.
@@ -138,6 +163,9 @@ public:
     const Item* itemAt(const Vec2& p, double distance) const;
     /// Shown, unlocked items (not groups) whose bounds lie in `box`, bottom first.
     std::vector<const Item*> itemsIn(const Box& box) const;
+    /// Shown items with a path whose painting may reach into `area`, bottom first: for culling. Strokes reach beyond
+    /// the path's own bounds: see paintedArea().
+    std::vector<const Item*> query(const Box& area) const;
 
 private:
     friend class Transaction;
@@ -148,7 +176,11 @@ private:
     std::unique_ptr<Private> d_;
 };
 
-/// Undo and redo of one scene (SPEC EN5). Steps hold data only, no pointer into any plugin.
+/// The area the painting of an item may reach, given the bounds of its path: a quarter of its size and 32 units beyond.
+JET_API Box paintedArea(const Box& bounds);
+
+/// Undo and redo of one scene (SPEC EN5). Steps hold data only, no pointer into any plugin. When they take more memory
+/// than allowed, the oldest are forgotten; the last one is always kept.
 class JET_API UndoRedoCenter {
 public:
     explicit UndoRedoCenter(ItemsCenter& items);
@@ -164,18 +196,32 @@ public:
     void redo();
     void clear();
 
-    /// All labels, oldest first, and how many of them are done: for the History panel.
-    std::vector<std::string> labels() const;
+    /// Steps that are kept, done or undone; how many of them are done; all labels, oldest first: for the History panel.
+    std::size_t size() const;
     std::size_t position() const;
+    const std::string& label(std::size_t step) const;
+    std::vector<std::string> labels() const;
     /// Undoes or redoes until `position` steps are done.
     void goTo(std::size_t position);
 
     /// Marks the present state as saved; isClean() tells whether we are at that state again.
     void markClean();
     bool isClean() const;
+    /// Number of done steps at the saved state; none when it cannot be reached any more.
+    std::optional<std::size_t> cleanPosition() const;
+
+    static constexpr std::size_t kDefaultMemoryLimit = std::size_t{256} << 20;
+    /// Memory the steps may take and take, in bytes (an estimate).
+    void setMemoryLimit(std::size_t bytes);
+    std::size_t memoryLimit() const;
+    std::size_t memory() const;
+    /// Steps forgotten for the lack of memory since the history began.
+    std::size_t forgotten() const;
 
 private:
     friend class Transaction;
+    ItemsCenter& items() const;
+    void take(std::size_t step, ItemsChanged::Cause cause);
     struct Private;
     std::unique_ptr<Private> d_;
 };

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -59,11 +60,15 @@ struct Image {
     std::vector<std::uint8_t> pixels;
 };
 
+enum class TextAlign { Left, Center, Right };
+
 struct TextStyle {
     Color color;
     double size = 12;  ///< em size, scene units; with `cosmetic`, pixels
     bool cosmetic = false;
-    bool centered = false;  ///< `at` is the middle of the text instead of the start of its baseline
+    bool centered = false;              ///< `at` is the middle of the text instead of the start of its baseline
+    std::string family = {};            ///< font family; empty: the surface's own
+    TextAlign align = TextAlign::Left;  ///< which part of the baseline `at` is; without meaning when centered
 };
 
 /// A drawing surface. save() and restore() nest and cover transform, clip and opacity. [thread that made it]
@@ -81,8 +86,19 @@ public:
     virtual void stroke(const Path& path, const Pen& pen) = 0;
     virtual void text(const Vec2& at, std::string_view utf8, const TextStyle& style) = 0;
     virtual void image(const Box& where, const Image& image) = 0;
+    /// Draws the picture in `file` (PNG, JPEG, ... as the surface can; a path relative to assetFolder(), or absolute)
+    /// over the parallelogram that `frame` makes of the unit square. False where it cannot be read. The default, of
+    /// surfaces without pictures, draws the frame's outline and diagonals and returns true.
+    virtual bool picture(const Affine& frame, std::string_view file);
     /// Device pixels a scene unit takes now: for level of detail and hit sizes.
     virtual double pixelsPerUnit() const = 0;
+
+    /// The folder that relative names of asset files start from; empty: the working directory. Set by paintScene().
+    const std::string& assetFolder() const { return assetFolder_; }
+    void setAssetFolder(std::string folder) { assetFolder_ = std::move(folder); }
+
+private:
+    std::string assetFolder_;
 };
 
 }  // namespace jet

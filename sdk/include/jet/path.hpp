@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace jet {
@@ -85,11 +86,18 @@ struct Polyline {
     bool closed = false;
 };
 
-/// A list of contours. A value: copying copies the points. All queries are const and thread-safe.
+/// A list of contours. A value: a copy shares the points until one of the two changes, so copies cost next to nothing.
+/// All queries are const and thread-safe. A reference from a function that is not const (contours(), segment()) is good
+/// until the path is copied or destroyed.
 class JET_API Path {
 public:
     Path() = default;
-    explicit Path(std::vector<Contour> contours) : contours_(std::move(contours)) {}
+    explicit Path(std::vector<Contour> contours);
+    Path(const Path& other) noexcept;
+    Path(Path&& other) noexcept : points_(std::exchange(other.points_, nullptr)) {}
+    Path& operator=(const Path& other) noexcept;
+    Path& operator=(Path&& other) noexcept;
+    ~Path();
 
     static Path rectangle(const Box& box);
     /// Four segments with kappa = 4(√2-1)/3 (SPEC TO4), clockwise on screen from the right.
@@ -109,9 +117,9 @@ public:
     /// Closes the current contour; a last point equal to the first is merged into it.
     void close();
 
-    const std::vector<Contour>& contours() const { return contours_; }
-    std::vector<Contour>& contours() { return contours_; }
-    bool isEmpty() const { return contours_.empty(); }
+    const std::vector<Contour>& contours() const;
+    std::vector<Contour>& contours();
+    bool isEmpty() const { return contours().empty(); }
     /// Segments of all contours, counted through: index i as used by transform(matrix, segments).
     std::size_t segmentCount() const;
     const Segment& segment(std::size_t index) const;
@@ -146,7 +154,11 @@ public:
     void transform(const Affine& m, std::span<const std::size_t> segments);
     Path transformed(const Affine& m) const;
 
-    bool operator==(const Path&) const = default;
+    bool operator==(const Path& other) const;
+    /// Do both have the very same points in memory, one being an unchanged copy of the other?
+    bool sharesPoints(const Path& other) const { return points_ == other.points_; }
+    /// Memory the points take, in bytes.
+    std::size_t memory() const;
 
     /// The text form in project files: SVG path data in absolute `M L C Z` with shortest round-trip numbers, then what
     /// SVG has no word for, where it is there: ` i c x y` and ` o c x y`, the control points that no curve uses before
@@ -162,7 +174,8 @@ public:
 
 private:
     Contour& current();  // the open contour that the next curve continues
-    std::vector<Contour> contours_;
+    struct Points;       // contours with a count of the paths that share them
+    Points* points_ = nullptr;
 };
 
 /// Kappa of the four-segment ellipse: 4(√2 - 1)/3.

@@ -21,6 +21,10 @@ public:
     const std::string& name() const { return name_; }
     void setName(std::string name) { name_ = std::move(name); }
 
+    /// Where relative names of asset files (pictures, sounds) start: the folder of the project's file.
+    const std::string& assetFolder() const { return assetFolder_; }
+    void setAssetFolder(std::string folder) { assetFolder_ = std::move(folder); }
+
     ItemsCenter& items() { return *items_; }
     const ItemsCenter& items() const { return *items_; }
     UndoRedoCenter& undoRedo() { return *undo_; }
@@ -50,6 +54,7 @@ private:
     friend class SceneBuilder;
 
     std::string name_;
+    std::string assetFolder_;
     EventsCenter& events_;
     Catalog& catalog_;
     Properties settings_;

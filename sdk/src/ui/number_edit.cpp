@@ -1,7 +1,11 @@
 #include "number_edit.hpp"
 
+#include <jet/ui/number_expression.hpp>
+
+#include <QCoreApplication>
 #include <QFontMetrics>
 #include <QLineEdit>
+#include <QToolTip>
 #include <QWheelEvent>
 
 #include <algorithm>
@@ -11,17 +15,33 @@ namespace jet::ui {
 
 NumberEdit::NumberEdit(const PropertySpec& spec, QWidget* parent)
     : QAbstractSpinBox(parent), whole_(spec.kind == ValueKind::Integer), minimum_(spec.minimum), maximum_(spec.maximum),
-      suffix_(spec.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(spec.unit))
+      unit_(spec.unit), suffix_(spec.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(spec.unit))
 {
     setFocusPolicy(Qt::StrongFocus);
     setKeyboardTracking(false);
+    lineEdit()->setPlaceholderText(QCoreApplication::translate("PropertyEditor", "several values"));
     connect(this, &QAbstractSpinBox::editingFinished, this, [this] { finish(); });
 }
 
 void NumberEdit::setNumber(std::optional<double> number)
 {
     number_ = number;
+    showProblem({});
     showNumber();
+}
+
+/// None: what was typed is fine.
+void NumberEdit::showProblem(const QString& message)
+{
+    if (message.isEmpty() && !wrong_) return;
+    if (!wrong_) toolTip_ = toolTip();
+    wrong_ = !message.isEmpty();
+    QPalette colors = palette();
+    if (wrong_) colors.setColor(QPalette::Text, QColor(224, 64, 64));
+    lineEdit()->setPalette(wrong_ ? colors : QPalette());
+    setToolTip(wrong_ ? message : toolTip_);
+    setAccessibleDescription(message);
+    if (wrong_ && isVisible()) QToolTip::showText(mapToGlobal(rect().bottomLeft()), message, this);
 }
 
 void NumberEdit::showNumber()
@@ -39,16 +59,10 @@ QString NumberEdit::textOf(double number) const
     return QString::fromStdString(numberText(shown));
 }
 
-std::optional<double> NumberEdit::read(const QString& text) const
+Result<double> NumberEdit::read(const QString& text) const
 {
-    QString plain = text;
-    if (!suffix_.isEmpty() && plain.endsWith(suffix_)) plain.chop(suffix_.size());
-    plain.replace(QLatin1Char(','), QLatin1Char('.'));  // a decimal comma is what half of Europe types
-    const std::string bytes = plain.trimmed().toStdString();
-    std::string_view rest = bytes;
-    double number = 0;
-    if (!readNumber(rest, number) || !rest.empty()) return std::nullopt;
-    return whole_ ? std::round(number) : number;
+    auto number = ui::evaluateNumber(text.toStdString(), {unit_, number_});
+    return number && whole_ ? Result<double>(std::round(*number)) : number;
 }
 
 QValidator::State NumberEdit::validate(QString& input, int&) const
@@ -83,10 +97,18 @@ void NumberEdit::accept(double number, bool done)
 
 void NumberEdit::finish()
 {
+    const QString text = lineEdit()->text();
     // A shortened number that nobody touched stays what it is.
-    const bool untouched = number_ && lineEdit()->text() == textOf(*number_) + suffix_;
-    const std::optional<double> entered = untouched ? number_ : read(lineEdit()->text());
-    if (entered && (entered != number_ || spinning_)) return accept(*entered, true);
+    const bool untouched = number_ ? text == textOf(*number_) + suffix_ : text.isEmpty();
+    if (untouched) {
+        showProblem({});
+        if (spinning_ && number_) return accept(*number_, true);
+        return showNumber();
+    }
+    const Result<double> entered = read(text);
+    if (!entered) return showProblem(QString::fromStdString(entered.error().message));
+    showProblem({});
+    if (number_ != *entered || spinning_) return accept(*entered, true);
     showNumber();
 }
 

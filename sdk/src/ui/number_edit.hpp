@@ -1,6 +1,8 @@
 // NumberEdit: a spin box for real and whole numbers that shows the exact value with as few digits as tell it apart.
 //
 // QDoubleSpinBox rounds to a fixed count of decimals: 0.0125 entered in an Inspector would come back as 0.01.
+// Expressions and units are read, too (number_expression.hpp); what cannot be read stays, marked, with the reason
+// beside it.
 #pragma once
 
 #include <jet/property.hpp>
@@ -16,7 +18,7 @@ class NumberEdit final : public QAbstractSpinBox {
 public:
     NumberEdit(const PropertySpec& spec, QWidget* parent);
 
-    /// None: blank.
+    /// None: several values that differ.
     void setNumber(std::optional<double> number);
     std::optional<double> number() const { return number_; }
     /// `done` is false while the user spins.
@@ -32,7 +34,8 @@ protected:
     void focusInEvent(QFocusEvent* event) override;
 
 private:
-    std::optional<double> read(const QString& text) const;
+    Result<double> read(const QString& text) const;
+    void showProblem(const QString& message);
     double step() const;
     void accept(double number, bool done);
     void showNumber();
@@ -41,7 +44,10 @@ private:
 
     bool whole_;
     double minimum_, maximum_;
+    std::string unit_;
     QString suffix_;
+    QString toolTip_;  // of the field, while a problem is shown
+    bool wrong_ = false;
     std::optional<double> number_;
     bool spinning_ = false;  // the last change was one of several to come
     std::function<void(double, bool)> handler_;

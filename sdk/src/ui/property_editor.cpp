@@ -127,6 +127,7 @@ public:
     explicit TextEditor(QWidget* parent) : PropertyEditor(parent), edit_(new QLineEdit(this))
     {
         fillWith(this, edit_);
+        edit_->setPlaceholderText(translated("several values"));
         connect(edit_, &QLineEdit::editingFinished, this, [this] {
             if (!edit_->isModified()) return;
             edit_->setModified(false);
@@ -137,6 +138,7 @@ public:
     void show(const std::optional<Value>& value) override
     {
         const QString text = value ? QString::fromStdString(value->as<std::string>()) : QString();
+        edit_->setPlaceholderText(value ? QString() : translated("several values"));
         if (text != edit_->text()) edit_->setText(text);
         edit_->setModified(false);
     }
@@ -158,6 +160,7 @@ public:
     void show(const std::optional<Value>& value) override
     {
         text_ = value ? QString::fromStdString(value->as<std::string>()) : QString();
+        if (!value) return button_->setText(translated("Edit… (several values)"));
         const int lines = text_.isEmpty() ? 0 : static_cast<int>(text_.count(QLatin1Char('\n'))) + 1;
         button_->setText(QCoreApplication::translate("PropertyEditor", "Edit… (%n line(s))", nullptr, lines));
     }
@@ -193,6 +196,7 @@ public:
             const QString id = QString::fromStdString(choice);
             box_->addItem(QCoreApplication::translate("Properties", choice.c_str()), id);
         }
+        box_->setPlaceholderText(translated("several values"));
         box_->setFocusPolicy(Qt::StrongFocus);
         connect(box_, &QComboBox::activated, this,
                 [this](int index) { report(box_->itemData(index).toString().toStdString(), EditPhase::Done); });

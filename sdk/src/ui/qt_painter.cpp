@@ -1,6 +1,7 @@
 // QtPainter: jet::Painter over a QPainter.
 #include <jet/ui/qt_painter.hpp>
 
+#include "picture_files.hpp"
 #include "qt_convert.hpp"
 
 #include <QFontMetricsF>
@@ -20,8 +21,9 @@ constexpr int kFontPixels = 128;
 
 QPointF alignment(const QFont& font, const QString& text, const TextStyle& style)
 {
-    if (!style.centered) return {};
+    if (!style.centered && style.align == TextAlign::Left) return {};
     const QFontMetricsF metrics(font);
+    if (!style.centered) return {(style.align == TextAlign::Center ? -0.5 : -1) * metrics.horizontalAdvance(text), 0};
     return {-0.5 * metrics.horizontalAdvance(text), 0.5 * (metrics.ascent() - metrics.descent())};
 }
 
@@ -93,6 +95,7 @@ void QtPainter::text(const Vec2& at, std::string_view utf8, const TextStyle& sty
     const QString string = QString::fromUtf8(utf8.data(), qsizetype(utf8.size()));
     QFont font = target_.font();
     font.setHintingPreference(QFont::PreferNoHinting);
+    if (!style.family.empty()) font.setFamily(QString::fromStdString(style.family));
     font.setPixelSize(style.cosmetic ? std::max(1, int(std::lround(style.size))) : kFontPixels);
 
     target_.save();
@@ -116,6 +119,19 @@ void QtPainter::image(const Box& where, const Image& image)
     const QImage pixels(image.pixels.data(), image.width, image.height, 4 * qsizetype(image.width),
                         QImage::Format_RGBA8888);
     target_.drawImage(QRectF(toQt(where.min), toQt(where.max)), pixels);
+}
+
+bool QtPainter::picture(const Affine& frame, std::string_view file)
+{
+    ensureGuiApplication();
+    const QImage pixels = pictureFile(assetFolder(), file);
+    if (pixels.isNull()) return false;
+    if (!frame.isInvertible()) return true;
+    target_.save();
+    target_.setTransform(toQt(frame), true);
+    target_.drawImage(QRectF(0, 0, 1, 1), pixels);
+    target_.restore();
+    return true;
 }
 
 double QtPainter::pixelsPerUnit() const { return std::sqrt(std::abs(target_.deviceTransform().determinant())); }

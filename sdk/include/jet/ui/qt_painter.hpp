@@ -26,6 +26,7 @@ public:
     void stroke(const Path& path, const Pen& pen) override;
     void text(const Vec2& at, std::string_view utf8, const TextStyle& style) override;
     void image(const Box& where, const Image& image) override;
+    bool picture(const Affine& frame, std::string_view file) override;
     double pixelsPerUnit() const override;
 
 private:
