@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "package_commands.hpp"
 #include "plugin_new_command.hpp"
+#include "recovery_commands.hpp"
 
 #include <jet/version.hpp>
 
@@ -124,7 +125,7 @@ void addProject(CLI::App& app, Parsed& parsed)
     one("new", "Make an empty project", newProject);
     one("check", "Open a project and tell everything that is wrong with it", checkProject);
     one("info", "What a project holds", projectInfo);
-    one("save", "Open and write back in place", saveProject);
+    addRecoveryCommands(*project, parsed.run);
 }
 
 int run(const Parsed& parsed, Session& session)

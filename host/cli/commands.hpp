@@ -42,7 +42,6 @@ int enablePlugin(Session& session, const std::string& id, bool enable);
 int newProject(Session& session, const std::filesystem::path& folder);
 int checkProject(Session& session, const std::filesystem::path& project);
 int projectInfo(Session& session, const std::filesystem::path& project);
-int saveProject(Session& session, const std::filesystem::path& project);
 
 /// The command line without a window. Returns the exit code, or nothing when the editor is to be started with
 /// `project`.

@@ -1,4 +1,5 @@
 #include "project_access.hpp"
+#include "recovery_commands.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -89,12 +90,13 @@ int checkProject(Session& session, const fs::path& path)
     }
     const std::unique_ptr<Project> project = std::move(*opened);
     for (const FormatNote& note : project->notes()) session.warning(note.message, note.where);
+    const std::size_t unsaved = tellUnsavedChanges(session, project->file());
     std::size_t items = 0;
     for (const Scene* scene : project->scenes()) items += scene->items().itemCount();
     if (session.options().json) {
         Json notes = Json::array();
         for (const FormatNote& note : project->notes()) notes.push_back(noteJson(note));
-        std::printf("%s\n", dump({{"ok", true}, {"notes", notes}}).c_str());
+        std::printf("%s\n", dump({{"ok", true}, {"notes", notes}, {"unsavedChanges", unsaved}}).c_str());
     } else {
         std::printf("%s: fine: %zu scenes, %zu items, %zu warnings\n", project->file().c_str(),
                     project->scenes().size(), items, project->notes().size());
@@ -140,17 +142,6 @@ int projectInfo(Session& session, const fs::path& path)
     for (const Json& use : json["plugins"])
         std::printf("  uses %s %s (%d)\n", use["id"].get<std::string>().c_str(),
                     use["version"].get<std::string>().c_str(), use["uses"].get<int>());
-    return kOk;
-}
-
-int saveProject(Session& session, const fs::path& path)
-{
-    const auto project = openProject(session, path);
-    if (!project) return kFailed;
-    if (const auto saved = project->save(); !saved) {
-        session.error(saved.error());
-        return kFailed;
-    }
     return kOk;
 }
 

@@ -71,10 +71,11 @@ protected:
     Outcome plain(const std::string& arguments, const std::string& environment = "")
     {
         const std::string out = (folder_.path() / "out").string(), err = (folder_.path() / "err").string();
-        const std::string command =
-            "cd '" + home().string() + "' && env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM XDG_CONFIG_HOME='" +
-            home().string() + "/config' XDG_DATA_HOME='" + home().string() + "/data' " + environment +
-            " '" JET_BINARY_DIR "/bin/jet' " + arguments + " > '" + out + "' 2> '" + err + "'";
+        const std::string command = "cd '" + home().string() +
+                                    "' && env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM XDG_CONFIG_HOME='" +
+                                    home().string() + "/config' XDG_DATA_HOME='" + home().string() +
+                                    "/data' XDG_STATE_HOME='" + home().string() + "/state' " + environment +
+                                    " '" JET_BINARY_DIR "/bin/jet' " + arguments + " > '" + out + "' 2> '" + err + "'";
         const int status = std::system(command.c_str());
         const auto content = [](const std::string& name) {
             std::ifstream in(name);
