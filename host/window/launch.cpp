@@ -67,5 +67,7 @@ int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& launch)
     FirstFrame firstFrame;
     if (qEnvironmentVariableIsSet("JET_TRACE_FIRST_FRAME")) application.installEventFilter(&firstFrame);
     window.show();
+    // What a crash left of other projects is offered once the window is there; opening one offers its own.
+    if (launch.project.empty()) QTimer::singleShot(0, &window, [&window] { window.projects().offerRecovery(); });
     return QApplication::exec();
 }

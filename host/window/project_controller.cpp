@@ -4,6 +4,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QSettings>
 
 namespace jet::host {
@@ -18,7 +19,9 @@ std::filesystem::path pathOf(const QString& text) { return text.toStdString(); }
 }  // namespace
 
 ProjectController::ProjectController(Editor& editor, Documents& documents, QWidget* window)
-    : QObject(window), editor_(editor), documents_(documents), window_(window), question_([this] { return ask(); })
+    : QObject(window), editor_(editor), documents_(documents), window_(window), question_([this] { return ask(); }),
+      recoveryQuestion_([this](const auto& journals) { return askRecovery(journals); }),
+      conflictQuestion_([this](const QStringList& files) { return askConflict(files); })
 {
 }
 
@@ -32,6 +35,8 @@ std::vector<ActionSpec> ProjectController::actions()
         {"file.save", QT_TRANSLATE_NOOP("Actions", "&Save project"), "save", "Ctrl+S", [this] { save(); }},
         {"file.save-as", QT_TRANSLATE_NOOP("Actions", "Save project &as…"), "", "Ctrl+Shift+S",
          [this] { askAndSaveAs(); }},
+        {"file.recover", QT_TRANSLATE_NOOP("Actions", "&Recover unsaved changes…"), "", "",
+         [this] { askAndRecover(); }},
     };
 }
 
@@ -40,13 +45,44 @@ std::vector<ActionSpec> ProjectController::actions()
 void ProjectController::install(std::unique_ptr<Project> project)
 {
     close();
+    journal_.reset();
     project_ = std::move(project);
+    takeLock(project_->file());
+    startJournal();  // before the panels know the project: the journal hears of a change first
     editor_.events().post(&editor_, ProjectChanged{});
     const std::vector<Scene*> scenes = project_->scenes();
     if (!scenes.empty()) documents_.openScene(*scenes.front());
 }
 
-void ProjectController::close() { documents_.closeAll(); }
+void ProjectController::startJournal()
+{
+    journal_ = std::make_unique<Journal>(*project_);
+    journal_->setProblemHandler([this](const std::string& text) {
+        editor_.showMessage(text.empty() ? tr("Changes are recorded for a recovery again.").toStdString() : text);
+    });
+}
+
+void ProjectController::takeLock(const std::filesystem::path& file)
+{
+    if (!file.empty() && file == locked_ && lock_.isHeld()) return;
+    lock_.release();
+    readOnly_ = false;
+    locked_ = file;
+    if (file.empty()) return;
+    auto taken = ProjectLock::take(file);
+    readOnly_ = !taken;
+    if (taken) {
+        lock_ = std::move(*taken);
+    } else {
+        editor_.showMessage(taken.error().text());
+    }
+}
+
+void ProjectController::close()
+{
+    documents_.closeAll();
+    if (journal_) journal_->discard();  // the user was asked
+}
 
 void ProjectController::create()
 {
@@ -54,6 +90,12 @@ void ProjectController::create()
 }
 
 bool ProjectController::open(const std::filesystem::path& path)
+{
+    const auto file = findProjectFile(path);
+    return (file && offerRecovery(*file)) || load(path);
+}
+
+bool ProjectController::load(const std::filesystem::path& path)
 {
     if (beforeOpen_) beforeOpen_(path);
     Result<std::unique_ptr<Project>> loaded = Project::load(path, editor_.events(), editor_.catalog());
@@ -63,12 +105,78 @@ bool ProjectController::open(const std::filesystem::path& path)
     }
     install(std::move(*loaded));
     remember(project_->file());
+    tellNotes();
+    return true;
+}
+
+void ProjectController::tellNotes()
+{
     for (const FormatNote& note : project_->notes()) {
         editor_.print({OutputLine::Kind::Warning, Error(note.message, note.where).text(), {}, 0});
     }
     const bool told = tellMissing_ && tellMissing_();
     if (!told && !project_->notes().empty()) editor_.showMessage(project_->notes().front().message);
+}
+
+// --- after a crash
+
+bool ProjectController::offerRecovery(const std::filesystem::path& only)
+{
+    std::error_code ignored;
+    for (;;) {
+        std::vector<JournalInfo> journals = findJournals();
+        std::erase_if(journals, [&](const JournalInfo& info) {
+            return info.inUse || (!only.empty() && !std::filesystem::equivalent(info.project, only, ignored));
+        });
+        if (journals.empty()) return false;
+        const RecoveryChoice choice = recoveryQuestion_(journals);
+        if (choice.kind == RecoveryChoice::Kind::Later) return false;
+        const std::filesystem::path journal = journals.at(choice.index).file;
+        // Who opens a project was asked about the present one before.
+        if (choice.kind == RecoveryChoice::Kind::Recover) return (!only.empty() || mayClose()) && recover(journal);
+        if (const auto removed = Journal::remove(journal); !removed) {
+            editor_.showMessage(removed.error().text());
+            return false;
+        }
+    }
+}
+
+bool ProjectController::recover(const std::filesystem::path& journal)
+{
+    const auto info = inspectJournal(journal);
+    if (beforeOpen_ && info && !info->project.empty()) beforeOpen_(info->project);
+    Result<Recovery> recovery = recoverProject(journal, editor_.events(), editor_.catalog());
+    if (!recovery) {
+        editor_.showMessage(recovery.error().text());
+        return false;
+    }
+    install(std::move(recovery->project));
+    if (!project_->file().empty()) remember(project_->file());
+    tellNotes();
+    for (const std::string& note : recovery->notes) editor_.showMessage(note);
+    // The old journal goes only when the new one holds all of it.
+    if (const auto kept = journal_->recordEverything(); !kept) {
+        editor_.showMessage(kept.error().text());
+    } else if (const auto removed = Journal::remove(journal); !removed) {
+        editor_.showMessage(removed.error().text());
+    }
+    editor_.showStatus(
+        tr("Recovered %n change(s); save to keep them", nullptr, static_cast<int>(recovery->changes)).toStdString());
+    emit saved();  // the title tells what is open now
     return true;
+}
+
+RecoveryChoice ProjectController::askRecovery(const std::vector<JournalInfo>& journals)
+{
+    RecoveryDialog dialog(journals, window_);
+    dialog.exec();
+    return dialog.choice();
+}
+
+void ProjectController::askAndRecover()
+{
+    if (offerRecovery()) return;
+    editor_.showStatus(tr("There are no unsaved changes of earlier sessions").toStdString());
 }
 
 bool ProjectController::isModified() const { return project_ && project_->isModified(); }
@@ -105,7 +213,46 @@ bool ProjectController::save()
 {
     documents_.commitScripts();
     if (SceneView* view = documents_.currentView()) view->endGesture();
-    return project_->file().empty() ? askAndSaveAs() : finishSave(project_->save());
+    if (project_->file().empty()) return askAndSaveAs();
+    if (readOnly_) {
+        takeLock(project_->file());  // it may be free by now
+        if (readOnly_) return askAndSaveAs();
+    }
+    const auto changed = project_->changedOnDisk();
+    return changed.empty() ? finishSave(project_->save()) : saveOverChanged(changed);
+}
+
+bool ProjectController::saveOverChanged(const std::vector<std::filesystem::path>& changed)
+{
+    QStringList files;
+    for (const std::filesystem::path& file : changed) files << QDir::toNativeSeparators(textOf(file));
+    switch (conflictQuestion_(files)) {
+    case Conflict::Reload: return load(project_->file());
+    case Conflict::KeepMine: return finishSave(project_->save(Overwrite::Allow));
+    case Conflict::SaveAs: return askAndSaveAs();
+    case Conflict::Cancel: return false;
+    }
+    return false;
+}
+
+ProjectController::Conflict ProjectController::askConflict(const QStringList& files)
+{
+    QMessageBox box(
+        QMessageBox::Warning, tr("Changed by another program"),
+        tr("Another program changed files of this project since they were opened:\n%1").arg(files.join('\n')),
+        QMessageBox::NoButton, window_);
+    box.setInformativeText(
+        tr("Reload drops what you did since the last save. Keep mine replaces their version; it goes "
+           "to the backups."));
+    const auto* reload = box.addButton(tr("&Reload"), QMessageBox::DestructiveRole);
+    const auto* mine = box.addButton(tr("&Keep mine"), QMessageBox::AcceptRole);
+    const auto* elsewhere = box.addButton(tr("Save &as…"), QMessageBox::ActionRole);
+    box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+    box.exec();
+    const QAbstractButton* clicked = box.clickedButton();
+    if (clicked == reload) return Conflict::Reload;
+    if (clicked == mine) return Conflict::KeepMine;
+    return clicked == elsewhere ? Conflict::SaveAs : Conflict::Cancel;
 }
 
 bool ProjectController::saveAs(const std::filesystem::path& folder)
@@ -121,6 +268,8 @@ bool ProjectController::finishSave(const Result<void>& result)
         return false;
     }
     remember(project_->file());
+    takeLock(project_->file());
+    for (const std::string& note : project_->saveNotes()) editor_.showMessage(note);
     editor_.showStatus(tr("Saved %1").arg(QDir::toNativeSeparators(textOf(project_->file()))).toStdString());
     emit saved();
     return true;

@@ -3,6 +3,10 @@
 
 #include "window/actions.hpp"
 #include "window/documents.hpp"
+#include "window/recovery_dialog.hpp"
+
+#include <jet/journal.hpp>
+#include <jet/project_lock.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -16,6 +20,8 @@ class ProjectController final : public QObject {
 
 public:
     enum class Answer { Save, Discard, Cancel };
+    /// What to do when another program changed the project's files.
+    enum class Conflict { Reload, KeepMine, SaveAs, Cancel };
 
     ProjectController(Editor& editor, Documents& documents, QWidget* window);
     ~ProjectController() override;
@@ -30,6 +36,12 @@ public:
     bool open(const std::filesystem::path& path);
     bool save();
     bool saveAs(const std::filesystem::path& folder);
+    /// Offers the changes that a crash left behind: those of `only`, or of all projects. False where there are none.
+    bool offerRecovery(const std::filesystem::path& only = {});
+    /// Opens the project of a journal with the changes in it, in place of the present one.
+    bool recover(const std::filesystem::path& journal);
+    /// Another editor has the project: it can be saved under another name only.
+    bool isReadOnly() const { return readOnly_; }
     /// Asks about unsaved changes, if any; false: the user wants to stay.
     bool mayClose();
     bool isModified() const;
@@ -44,6 +56,14 @@ public:
     void setBeforeOpen(std::function<void(const std::filesystem::path&)> before) { beforeOpen_ = std::move(before); }
     /// Tells which plugins the opened project misses; false when it misses none.
     void setTellMissing(std::function<bool()> tell) { tellMissing_ = std::move(tell); }
+    void setRecoveryQuestion(std::function<RecoveryChoice(const std::vector<JournalInfo>&)> question)
+    {
+        recoveryQuestion_ = std::move(question);
+    }
+    void setConflictQuestion(std::function<Conflict(const QStringList&)> question)
+    {
+        conflictQuestion_ = std::move(question);
+    }
 
 signals:
     void saved();
@@ -54,18 +74,32 @@ private:
     void askAndOpen();
     void askAndOpen(const QString& path);
     bool askAndSaveAs();
+    void askAndRecover();
+    bool load(const std::filesystem::path& path);
+    bool saveOverChanged(const std::vector<std::filesystem::path>& changed);
+    void startJournal();
+    void takeLock(const std::filesystem::path& file);
+    void tellNotes();
     bool finishSave(const Result<void>& result);
     void remember(const std::filesystem::path& file);
     Answer ask();
+    RecoveryChoice askRecovery(const std::vector<JournalInfo>& journals);
+    Conflict askConflict(const QStringList& files);
 
     Editor& editor_;
     Documents& documents_;
     QWidget* window_;
     std::unique_ptr<Project> project_;
+    std::unique_ptr<Journal> journal_;  // of project_
+    ProjectLock lock_;
+    std::filesystem::path locked_;  // the file lock_ is for
+    bool readOnly_ = false;
     QStringList recent_;
     std::function<Answer()> question_;
     std::function<void(const std::filesystem::path&)> beforeOpen_;
     std::function<bool()> tellMissing_;
+    std::function<RecoveryChoice(const std::vector<JournalInfo>&)> recoveryQuestion_;
+    std::function<Conflict(const QStringList&)> conflictQuestion_;
 };
 
 }  // namespace jet::host

@@ -18,7 +18,7 @@ fi
 
 rm -rf "$out"
 mkdir -p "$out/settings"
-export XDG_CONFIG_HOME=$out/settings QT_QPA_PLATFORM=xcb
+export XDG_CONFIG_HOME=$out/settings XDG_STATE_HOME=$out/state QT_QPA_PLATFORM=xcb
 project=$out/project
 play="216 40"  # buttons of the tool bar, pixels of the window
 stop="314 40"

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QSettings>
+#include <QTemporaryDir>
 #include <QTest>
 
 namespace jet::test {
@@ -16,6 +17,7 @@ public:
     {
         qputenv("QT_QPA_PLATFORM",
                 qEnvironmentVariableIsSet("JET_TEST_PLATFORM") ? qgetenv("JET_TEST_PLATFORM") : "offscreen");
+        qputenv("XDG_STATE_HOME", state_.path().toUtf8());  // the journals of these tests are nobody else's
         application_ = std::make_unique<QApplication>(count_, arguments_);
     }
     void TearDown() override { application_.reset(); }
@@ -24,6 +26,7 @@ private:
     int count_ = 1;
     char name_[13] = "jet-gui-test";
     char* arguments_[2] = {name_, nullptr};
+    QTemporaryDir state_;
     std::unique_ptr<QApplication> application_;
 };
 
@@ -50,6 +53,7 @@ void WindowFixture::start()
     stop();
     window_ = std::make_unique<host::MainWindow>(launch_);
     window_->projects().setQuestion([] { return host::ProjectController::Answer::Discard; });
+    window_->projects().setRecoveryQuestion([](const auto&) { return host::RecoveryChoice{}; });
     window_->restoreSettings();
     window_->projects().create();
     window_->resize(1000, 700);
