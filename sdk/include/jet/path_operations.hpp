@@ -30,8 +30,8 @@ JET_API std::vector<Path> cutPath(const Path& subject, const Path& cutter);
 JET_API Path joinPaths(std::span<const Path> paths, double tolerance = 1e-6);
 
 /// A path with fewer segments within `tolerance` (> 0, scene units) of the given one. Corners sharper than
-/// `cornerAngle` (radians) and straight sides stay; each new segment gets the largest intermediate count of its contour. (Schneider, "An Algorithm for Automatically Fitting Digitized
-/// Curves", Graphics Gems, 1990.)
+/// `cornerAngle` (radians) and straight sides stay; each new segment gets the largest intermediate count of its
+/// contour. (Schneider, "An Algorithm for Automatically Fitting Digitized Curves", Graphics Gems, 1990.)
 JET_API Path simplifyPath(const Path& path, double tolerance, double cornerAngle = 0.35);
 
 /// Contours turned so that outer ones run clockwise on screen and holes the other way, by how many others they lie in:
