@@ -1,5 +1,7 @@
 #include "editor.hpp"
 
+#include "managed_plugins.hpp"
+
 #include "host/packages/installer.hpp"
 #include "host/plugins/plugin_control.hpp"
 #include "host/plugins/project_trust.hpp"
@@ -106,9 +108,17 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
         session.events().post(&control, PluginsChanged{});
         return told;
     };
-    const WindowLaunch launch{
-        plugins,  session.events(), project, global.safeMode, [&plugins] { return plugins.problems(); },
-        &control, useProjectPlugins};
+    ManagedPlugins runtime(plugins);
+    WindowLaunch launch{plugins,  session.events(), project, global.safeMode, [&plugins] { return plugins.problems(); },
+                        &control, useProjectPlugins};
+    launch.runtime = &runtime;
+    const auto crashes = session.crashes();
+    for (const CrashReport& crash : crashes) launch.crashes.push_back({crash.plugin, crash.message});
+    launch.goOnWithout = [&](const std::vector<std::string>& ids) {
+        plugins.leaveOut(ids);
+        for (const CrashReport& crash : crashes) CrashLedger::settled(crash);
+    };
+    launch.watch = global.watch;
     return run(argc, argv, launch);
 }
 

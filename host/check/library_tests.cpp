@@ -2,6 +2,7 @@
 #include "tests.hpp"
 
 #include "host/packages/package.hpp"
+#include "host/plugins/guard.hpp"
 #include "host/plugins/plugin_library.hpp"
 #include "host/plugins/plugin_manager.hpp"
 
@@ -66,8 +67,10 @@ void testContributions(Context& context)
     plugin.folder = context.folder;
     plugin.manifest = context.manifest;
     Registrations made;
+    Guard guard;
+    CallAccount account(plugin, guard, plugin.manifest.id + " " + plugin.manifest.version.text());
     context.board.callback("registering");
-    const auto opened = PluginLibrary::open(plugin, made);
+    const auto opened = PluginLibrary::open(plugin.folder, plugin.manifest, account, {}, made);
     if (!opened) context.fail(opened.error().message);
     if (const auto agree = checkRegistrations(plugin.manifest, made); !agree) context.fail(agree.error().message);
     const auto makeAll = [&](const auto& factories, const char* kind, const auto& look) {

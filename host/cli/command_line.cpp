@@ -156,12 +156,20 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
     addPlugins(app, parsed);
     addProject(app, parsed);
     app.add_option("project", project, "Project to open in the editor")->type_name("PROJECT");
+    app.add_option("--watch", global.watch, "In the editor: folder of further plugins, reloaded when they are rebuilt")
+        ->type_name("DIR")
+        ->take_all();
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
         return app.exit(problem) == 0 ? kOk : kUsage;
     }
+    global.pluginPath.insert(global.pluginPath.end(), global.watch.begin(), global.watch.end());
     if (!parsed.run) return std::nullopt;
+    if (!global.watch.empty()) {
+        std::fprintf(stderr, "error: --watch is for the editor; leave it out, or use --plugin-path\n");
+        return kUsage;
+    }
     // A word too many falls through to the editor's argument.
     if (!project.empty()) {
         std::fprintf(stderr, "error: '%s' is one argument too many; 'jet --help' shows how to call each command\n",
@@ -169,6 +177,7 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
         return kUsage;
     }
     Session session(global);
+    session.printCrashes();
     const int code = run(parsed, session);
     return session.tellProblems() ? std::max<int>(code, kFailed) : code;
 }

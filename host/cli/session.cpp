@@ -34,12 +34,30 @@ std::set<std::string> readSet(const std::string& name)
 
 Session::Session(GlobalOptions options) : options_(std::move(options)) {}
 
+Session::~Session()
+{
+    watchdog_.reset();
+    plugins_.reset();
+    CrashLedger::ending();
+}
+
+void Session::printCrashes()
+{
+    for (const CrashReport& report : crashes()) {
+        if (report.toldBefore) continue;
+        warning(report.message + "; '--without " + report.plugin +
+                "' goes on without it, '--safe-mode' with the shipped plugins only");
+        CrashLedger::told(report);
+    }
+}
+
 PluginManager& Session::plugins()
 {
     if (plugins_) return *plugins_;
     PluginOptions options;
     options.builtIn = builtInPluginFolder();
     options.searchPath = options_.pluginPath;
+    options.copyLibraries = !options_.watch.empty();
     std::error_code ignored;
     for (const fs::path& folder : options.searchPath)
         if (!fs::is_directory(folder, ignored))
@@ -60,7 +78,10 @@ PluginManager& Session::plugins()
         const std::lock_guard lock(mutex_);
         problems_.push_back(problem);
     });
+    plugins_->setHangHandler([this](const PluginProblem& problem) { warning(problem.message); });
     plugins_->scan();
+    static const CrashLedger ledger(CrashLedger::defaultFolder());  // one a process
+    watchdog_ = std::make_unique<Watchdog>();
     return *plugins_;
 }
 

@@ -1,8 +1,10 @@
 // What all commands share: the global options, the plugin manager made from them, and the way messages are printed.
 #pragma once
 
+#include "host/plugins/crash_ledger.hpp"
 #include "host/plugins/plugin_manager.hpp"
 #include "host/plugins/user_choice.hpp"
+#include "host/plugins/watchdog.hpp"
 
 #include <jet/events.hpp>
 #include <jet/result.hpp>
@@ -21,6 +23,7 @@ enum Exit : int { kOk = 0, kFailed = 1, kUsage = 2 };
 
 struct GlobalOptions {
     std::vector<std::filesystem::path> pluginPath;
+    std::vector<std::filesystem::path> watch;  // also part of pluginPath
     std::vector<std::string> without;
     std::string set;
     bool safeMode = false;
@@ -32,6 +35,7 @@ struct GlobalOptions {
 class Session {
 public:
     explicit Session(GlobalOptions options);
+    ~Session();
 
     const GlobalOptions& options() const { return options_; }
     EventsCenter& events() { return events_; }
@@ -43,6 +47,9 @@ public:
 
     void error(const Error& error);
     void warning(const std::string& message, const Location& where = {});
+    /// Plugins in which an earlier run ended. printCrashes() says so once, on stderr, for commands without a window.
+    std::vector<CrashReport> crashes() const { return CrashLedger::reports(CrashLedger::defaultFolder()); }
+    void printCrashes();
     /// What failed inside plugins and was not yet told: one failure is one message, so it waits for the command that
     /// may tell it with more context. Returns whether there was any.
     bool tellProblems();
@@ -57,6 +64,7 @@ private:
     mutable std::mutex mutex_;             // guards the problems: plugins fail on any thread
     std::vector<PluginProblem> problems_;  // not yet told
     std::unique_ptr<PluginManager> plugins_;
+    std::unique_ptr<Watchdog> watchdog_;
 };
 
 /// "0x…" hashes are printed as 16 hexadecimal digits.

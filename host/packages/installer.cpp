@@ -2,6 +2,7 @@
 
 #include "disk.hpp"
 
+#include "host/plugins/guard.hpp"
 #include "host/plugins/plugin_library.hpp"
 #include "host/process/child_process.hpp"
 
@@ -287,7 +288,9 @@ Result<void> tryLoad(const fs::path& folder)
     plugin.manifest = std::move(*manifest);
     if (const auto fits = checkBuild(plugin.manifest); !fits) return fits;
     Registrations registrations;
-    const auto opened = PluginLibrary::open(plugin, registrations);
+    Guard guard;
+    CallAccount account(plugin, guard, plugin.manifest.id + " " + plugin.manifest.version.text());
+    const auto opened = PluginLibrary::open(plugin.folder, plugin.manifest, account, {}, registrations);
     if (!opened) return opened.error();
     return checkRegistrations(plugin.manifest, registrations);
 }

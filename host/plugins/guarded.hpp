@@ -25,4 +25,13 @@ std::shared_ptr<PhysicsEngine> guarded(Guard& guard, Plugin& plugin, std::shared
 std::shared_ptr<ScriptEngine> guarded(Guard& guard, Plugin& plugin, std::shared_ptr<ScriptEngine> engine);
 std::shared_ptr<Command> guarded(Guard& guard, Plugin& plugin, std::shared_ptr<Command> command);
 
+// Gives an object made by guarded() a new inside, from the reloaded plugin; null: nothing, it answers neutrally.
+void renew(Effect& guarded, std::shared_ptr<Effect> effect);
+void renew(ItemType& guarded, std::shared_ptr<ItemType> type);
+void renew(Importer& guarded, std::shared_ptr<Importer> importer);
+void renew(Exporter& guarded, std::shared_ptr<Exporter> exporter);
+void renew(PhysicsEngine& guarded, std::shared_ptr<PhysicsEngine> engine);
+void renew(ScriptEngine& guarded, std::shared_ptr<ScriptEngine> engine);
+void renew(Command& guarded, std::shared_ptr<Command> command);
+
 }  // namespace jet::host

@@ -12,12 +12,11 @@ std::string Plugin::title() const { return manifest.name + " (" + manifest.id + 
 
 std::vector<CallbackCost> callbackCosts(const Plugin& plugin)
 {
-    const std::uint64_t calls = plugin.calls;
-    if (calls == 0) return {};
-    CallbackCost all;
-    all.callback = "all";
-    all.calls = calls;
-    return {all};
+    std::vector<CallbackCost> costs;
+    if (!plugin.account) return costs;
+    for (const CallbackTime& time : plugin.account->times())
+        costs.push_back({std::string(nameOf(time.callback)), time.calls, time.totalMs, time.longestMs, time.overruns});
+    return costs;
 }
 
 }  // namespace jet::host

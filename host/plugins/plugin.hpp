@@ -2,6 +2,7 @@
 // cost.
 #pragma once
 
+#include "call_account.hpp"
 #include "manifest.hpp"
 
 #include <jet/plugin.hpp>
@@ -57,7 +58,7 @@ struct Plugin {
     Registrations registrations;
     std::filesystem::path mapped;  ///< the file its library was loaded from
     double loadMs = 0;
-    std::atomic<std::uint64_t> calls{0};
+    std::unique_ptr<CallAccount> account;  ///< what calls into it cost; from its loading on
 
     bool usable() const
     {

@@ -33,7 +33,7 @@ PluginInfo describe(const Plugin& plugin)
         if (!one.icon.empty()) one.icon = (plugin.folder / one.icon).string();
     info.loadMs = plugin.loadMs;
     info.callbacks = callbackCosts(plugin);
-    info.calls = plugin.calls;
+    for (const CallbackCost& cost : info.callbacks) info.calls += cost.calls;
     if (plugin.library) info.mappedBytes = mappedBytes(plugin.mapped);
     return info;
 }
@@ -43,7 +43,8 @@ PluginInfo describe(const Plugin& plugin)
 std::uint64_t mappedBytes(const std::filesystem::path& file)
 {
     std::error_code ignored;
-    const std::string wanted = std::filesystem::canonical(file, ignored).string();
+    std::string wanted = std::filesystem::canonical(file, ignored).string();
+    if (wanted.empty() && !file.empty()) wanted = file.string() + " (deleted)";  // a copy, gone once it was mapped
     std::uint64_t bytes = 0;
     std::ifstream maps("/proc/self/maps");  // "from-to rwxp offset device inode   path"
     for (std::string line; !wanted.empty() && std::getline(maps, line);) {

@@ -5,8 +5,13 @@
 #include <jet/effect.hpp>
 #include <jet/version.hpp>
 
+#include <cstdlib>
+#include <cstring>
 #include <dlfcn.h>
+#include <elf.h>
+#include <fstream>
 #include <set>
+#include <unistd.h>
 
 namespace jet::host {
 
@@ -115,31 +120,49 @@ Result<void> checkRegistrations(const Manifest& manifest, const Registrations& r
                  "; make plugin.json and JET_PLUGIN agree");
 }
 
-Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Plugin& plugin, Registrations& registrations)
+namespace {
+
+// Mapping a file that was cut short is a crash in the dynamic linker, not an error.
+Result<void> checkWhole(const std::filesystem::path& file)
 {
-    namespace dll = boost::dll;
-    const std::filesystem::path file = plugin.folder / (plugin.manifest.library + ".so");
-    if (!std::filesystem::exists(file))
-        return Error("its library " + file.string() + " is missing; install the plugin again");
-    auto opened = std::make_unique<PluginLibrary>();
-    const auto load = [&] { opened->library_.load(file, dll::load_mode::rtld_now | dll::load_mode::rtld_local); };
-    try {
-        try {
-            load();
-        } catch (const std::exception& e) {
-            if (!provideSdkUi(e.what())) throw;
-            load();
-        }
-    } catch (const std::exception& e) {
-        return Error(std::string("its library does not load: ") + e.what());
+    std::error_code problem;
+    const std::uintmax_t size = std::filesystem::file_size(file, problem);
+    std::ifstream in(file, std::ios::binary);
+    Elf64_Ehdr header{};
+    if (!in.read(reinterpret_cast<char*>(&header), sizeof header) ||
+        std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 || header.e_phentsize != sizeof(Elf64_Phdr))
+        return Error("its library " + file.string() + " is no shared library; build or install the plugin again");
+    in.seekg(static_cast<std::streamoff>(header.e_phoff));
+    for (int i = 0; i < header.e_phnum; ++i) {
+        Elf64_Phdr part{};
+        if (!in.read(reinterpret_cast<char*>(&part), sizeof part) ||
+            (part.p_type == PT_LOAD && part.p_offset + part.p_filesz > size))
+            return Error("its library " + file.string() + " is cut short; build or install the plugin again");
     }
-    // From here on the mapping stays: exceptions, queued calls and types of the plugin may outlive any use of it.
-    static auto* const kept = new std::vector<dll::shared_library>;
-    kept->push_back(opened->library_);
-    if (!opened->library_.has("jet_plugin_entry"))
+    return {};
+}
+
+// A file of its own for each load, gone when the program ends (or at once, see open()).
+Result<std::filesystem::path> copyOf(const std::filesystem::path& file)
+{
+    std::string name =
+        (std::filesystem::temp_directory_path() / ("jet-" + file.stem().string() + "-XXXXXX.so")).string();
+    const int descriptor = mkstemps(name.data(), 3);
+    if (descriptor < 0) return Error("its library cannot be copied to " + name + "; make room there, or set TMPDIR");
+    close(descriptor);
+    std::error_code problem;
+    std::filesystem::copy_file(file, name, std::filesystem::copy_options::overwrite_existing, problem);
+    if (!problem) return std::filesystem::path(name);
+    unlink(name.c_str());
+    return Error("its library cannot be copied to " + name + ": " + problem.message());
+}
+
+Result<const JetPluginEntry*> checkedEntry(boost::dll::shared_library& library)
+{
+    if (!library.has("jet_plugin_entry"))
         return Error(
             "its library has no symbol jet_plugin_entry; write JET_PLUGIN(plugin) { ... } in one of its files");
-    const auto& entry = opened->library_.get<const JetPluginEntry>("jet_plugin_entry");
+    const auto& entry = library.get<const JetPluginEntry>("jet_plugin_entry");
     if (entry.magic != JET_PLUGIN_MAGIC)
         return Error("its jet_plugin_entry is not one; rebuild it with the present SDK");
     if (entry.sdkMajor != JET_SDK_VERSION_MAJOR || entry.sdkMinor > JET_SDK_VERSION_MINOR ||
@@ -147,15 +170,71 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Plugin& plugin,
         return Error("its library was built for SDK " + std::to_string(entry.sdkMajor) + "." +
                      std::to_string(entry.sdkMinor) + " (" + entry.abi +
                      "), other than its plugin.json says; build and install both together");
+    return &entry;
+}
+
+Result<void> collect(const JetPluginEntry& entry, Registrations& registrations)
+{
     try {
         Collector collector(registrations);
         entry.registerContributions(collector);
+        return {};
     } catch (const std::exception& e) {
         return Error(std::string("it fails while registering: ") + e.what());
     } catch (...) {
         return Error("it fails while registering, with an unknown exception");
     }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const std::filesystem::path& folder,
+                                                           const Manifest& manifest, CallAccount& account,
+                                                           LibraryOptions options, Registrations& registrations)
+{
+    namespace dll = boost::dll;
+    const std::filesystem::path original = folder / (manifest.library + ".so");
+    if (!std::filesystem::exists(original))
+        return Error("its library " + original.string() + " is missing; install the plugin again");
+    if (const auto whole = checkWhole(original); !whole) return whole.error();
+    auto opened = std::make_unique<PluginLibrary>();
+    opened->file_ = original;
+    if (options.copy) {
+        auto copy = copyOf(original);
+        if (!copy) return copy.error();
+        opened->file_ = *copy;
+    }
+    const CallScope scope(account, Callback::Load);  // static constructors run in here
+    const auto load = [&]() -> std::string {
+        try {
+            opened->library_.load(opened->file_, dll::load_mode::rtld_now | dll::load_mode::rtld_local);
+            return {};
+        } catch (const std::exception& e) {
+            return e.what();
+        }
+    };
+    std::string problem = load();
+    if (!problem.empty() && provideSdkUi(problem)) problem = load();
+    if (options.copy) unlink(opened->file_.c_str());  // what is mapped lives on
+    if (!problem.empty()) return Error("its library does not load: " + problem);
+    if (!options.unload) opened->keep();
+    const auto entry = checkedEntry(opened->library_);
+    if (!entry) return entry.error();
+    opened->entry_ = *entry;
+    CallBoard::addCode(account.place(), *entry);
+    if (const auto collected = collect(**entry, registrations); !collected) {
+        registrations = {};
+        return collected.error();
+    }
     return opened;
 }
+
+void PluginLibrary::keep() const
+{
+    static auto* const kept = new std::vector<boost::dll::shared_library>;
+    kept->push_back(library_);
+}
+
+void PluginLibrary::release() const { CallBoard::releaseCode(entry_); }
 
 }  // namespace jet::host

@@ -226,6 +226,7 @@ std::vector<std::string> PluginManager::problems() const
     for (const Plugin* plugin : plugins())
         if (plugin->state == PluginState::Faulted)
             list.push_back("The plugin " + plugin->manifest.id + " is not used: " + plugin->reason);
+    for (std::string& notice : guard_.notices()) list.push_back(std::move(notice));
     return list;
 }
 
@@ -267,10 +268,15 @@ void PluginManager::loadRequirementsFirst(Plugin& plugin)
     registrations.openSettings = [&](std::string_view page, const PropertyTable& table) {
         return settingsStore_.page(plugin.manifest.id, std::string(page), table);
     };
-    auto opened = PluginLibrary::open(plugin, registrations);
+    if (!plugin.account)
+        plugin.account =
+            std::make_unique<CallAccount>(plugin, guard_, plugin.manifest.id + " " + plugin.manifest.version.text());
+    auto opened = PluginLibrary::open(plugin.folder, plugin.manifest, *plugin.account,
+                                      {options_.copyLibraries, options_.strictUnload}, registrations);
     Result<void> fine = opened ? checkRegistrations(plugin.manifest, registrations) : Result<void>(opened.error());
     plugin.loadMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
     if (!fine) {
+        registrations = {};  // before the library, which may really go
         plugin.reason = fine.error().message;
         plugin.state = PluginState::Faulted;
         if (guard_.onProblem)
@@ -279,7 +285,7 @@ void PluginManager::loadRequirementsFirst(Plugin& plugin)
         return;
     }
     plugin.library = std::move(*opened);
-    plugin.mapped = plugin.folder / (plugin.manifest.library + ".so");
+    plugin.mapped = plugin.library->file();
     plugin.registrations = std::move(registrations);
     plugin.state = PluginState::Loaded;
 }
@@ -330,7 +336,7 @@ T* PluginManager::shared(Table<T>& table, ContributionKind kind, std::string_vie
         if (Plugin* plugin = ready(kind, id)) {
             const auto factory = (plugin->registrations.*factories).find(id);
             auto own = guard_.call(
-                *plugin, "factory", [&] { return factory->second(); }, std::shared_ptr<T>());
+                *plugin, Callback::Factory, [&] { return factory->second(); }, std::shared_ptr<T>());
             if (own) made = {guarded(guard_, *plugin, std::move(own)), plugin};
         }
         // Objects stay valid while the manager lives; "nothing" is remembered, too: a failed plugin is not asked again.
@@ -401,7 +407,7 @@ std::unique_ptr<Tool> PluginManager::createTool(std::string_view id, ToolHost& h
     if (!plugin) return nullptr;
     const auto factory = plugin->registrations.tools.find(id);
     auto tool = guard_.call(
-        *plugin, "factory", [&] { return factory->second(host); }, std::unique_ptr<Tool>());
+        *plugin, Callback::Factory, [&] { return factory->second(host); }, std::unique_ptr<Tool>());
     return tool ? guarded(guard_, *plugin, std::move(tool), host) : nullptr;
 }
 
@@ -411,7 +417,7 @@ std::unique_ptr<Panel> PluginManager::createPanel(std::string_view id, Editor& e
     if (!plugin) return nullptr;
     const auto factory = plugin->registrations.panels.find(id);
     auto panel = guard_.call(
-        *plugin, "factory", [&] { return factory->second(editor); }, std::unique_ptr<Panel>());
+        *plugin, Callback::Factory, [&] { return factory->second(editor); }, std::unique_ptr<Panel>());
     return panel ? guarded(guard_, *plugin, std::move(panel), editor) : nullptr;
 }
 

@@ -27,6 +27,8 @@ struct PluginOptions {
     std::optional<std::set<std::string>> only;      ///< a plugin set; none: all
     std::string setName;                            ///< of that set, for messages
     std::map<std::string, VersionRange> wanted;     ///< of several copies, one that fits is used
+    bool copyLibraries = false;                     ///< load from fresh paths, for rebuilding while it runs
+    bool strictUnload = false;                      ///< unload() really unloads: for tests
     bool safeMode = false;                          ///< only what ships with the program
     std::filesystem::path builtIn;                  ///< the folder of what ships
     std::filesystem::path settings;                 ///< the folder of plugins' settings; empty: kept in memory
@@ -68,6 +70,20 @@ public:
     /// The values of a settings page; loads its plugin. Null when there is none.
     std::shared_ptr<Settings> settings(std::string_view page);
     SettingsStore& settingsStore() { return settingsStore_; }
+    /// Told of each call into a plugin that does not return for long, while it goes on. [a thread of its own]
+    void setHangHandler(std::function<void(const PluginProblem&)> handler) { guard_.onHang = std::move(handler); }
+    /// As if these were not installed. Before anything was loaded.
+    void leaveOut(const std::vector<std::string>& ids);
+    /// Takes the plugin as it is now in its folder. What runs goes on if that does not work; the error says why. Shared
+    /// objects (effects, formats, engines) keep their addresses; tools and panels must be made again, and EffectStates
+    /// dropped, by `beforeSwap`, which is called when the new library is known to work. Not while a simulation runs.
+    Result<void> reload(std::string_view id, const std::function<void()>& beforeSwap = {});
+    /// Takes in a plugin that came into a folder of the search path later; returns its id.
+    Result<std::string> takeIn(const std::filesystem::path& folder);
+    /// Delivers an event to a widget of the plugin as a call into it.
+    void guardPanelEvent(std::string_view id, const std::function<void()>& deliver);
+    /// Destroys all its objects and, with strictUnload, its library; the error names what it leaves behind.
+    Result<void> unload(std::string_view id);
 
     std::vector<Contribution> contributions(ContributionKind kind) const override;
     const ItemType* itemType(std::string_view id) override;
@@ -115,6 +131,10 @@ private:
     Plugin* ready(ContributionKind kind, std::string_view id);
     void loadOrFault(Plugin& plugin);
     void loadRequirementsFirst(Plugin& plugin);
+    Result<void> swapIn(Plugin& plugin, Manifest manifest, const std::function<void()>& beforeSwap);
+    void renewObjects(Plugin& plugin);
+    template <class T, class Map>
+    void renewTable(Table<T>& table, Plugin& plugin, Map Registrations::*factories);
     template <class T, class Map>
     T* shared(Table<T>& table, ContributionKind kind, std::string_view id, Map Registrations::*factories);
 

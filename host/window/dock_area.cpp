@@ -1,5 +1,7 @@
 #include "window/dock_area.hpp"
 
+#include "window/guarded_application.hpp"
+
 #include <jet/ui/panel.hpp>
 
 #include <QLabel>
@@ -100,7 +102,28 @@ void DockArea::fillWhenSeen(Dock& dock, bool visible)
         label->setMargin(10);
         widget = label;
     }
+    GuardedApplication::setOwner(*widget, dock.failed ? std::string() : dock.panel.plugin);
     dock.widget->setWidget(widget);
+}
+
+void DockArea::dropContent(const std::string& plugin)
+{
+    for (const auto& dock : docks_)
+        if (dock->panel.plugin == plugin && (dock->content || dock->failed)) empty(*dock);
+}
+
+void DockArea::showFailures(const PluginRuntime& plugins)
+{
+    for (const auto& dock : docks_) {
+        if (!dock->content || plugins.isUsable(dock->panel.plugin)) continue;
+        empty(*dock);
+        fillWhenSeen(*dock, dock->widget->isVisible());
+    }
+}
+
+void DockArea::refillContent()
+{
+    for (const auto& dock : docks_) fillWhenSeen(*dock, dock->widget->isVisible());
 }
 
 void DockArea::placeDefault()

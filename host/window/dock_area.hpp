@@ -4,6 +4,8 @@
 // forgets what it cannot find, so an invisible stand-in of the same name is put there and saved again as it was.
 #pragma once
 
+#include "window/plugin_runtime.hpp"
+
 #include <jet/editor.hpp>
 
 #include <QDockWidget>
@@ -40,6 +42,13 @@ public:
     /// Back to how a first start looks.
     void resetLayout();
     void fillMenu(QMenu& menu) const;
+
+    /// Takes a plugin's panels out of their docks, which keep their places; refillContent() makes those anew that are
+    /// seen. For plugins that are reloaded or switched off.
+    void dropContent(const std::string& plugin);
+    void refillContent();
+    /// Puts the reason into the docks of plugins that were switched off since their panels were made.
+    void showFailures(const PluginRuntime& plugins);
 
     /// Hides the panels for the documents' sake, and brings them back.
     void setMaximized(bool on);

@@ -1,5 +1,7 @@
 #include "window/launch.hpp"
 
+#include "window/crash_dialog.hpp"
+#include "window/guarded_application.hpp"
 #include "window/main_window.hpp"
 #include "window/theme.hpp"
 
@@ -56,12 +58,18 @@ private:
 
 int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& launch)
 {
-    QApplication application(argc, argv);
+    jet::host::GuardedApplication application(argc, argv, launch.runtime);
     std::setlocale(LC_NUMERIC, "C");  // QApplication sets the user's: numbers in files and scripts have a point
     QApplication::setApplicationName("JET");
     QApplication::setDesktopFileName("jet");
     jet::host::applyTheme(application);
+    if (!launch.crashes.empty()) {
+        jet::host::CrashDialog dialog(launch.crashes);
+        if (dialog.exec() == QDialog::Rejected) return 0;
+        if (launch.goOnWithout) launch.goOnWithout(dialog.leftOut());
+    }
     jet::host::MainWindow window(launch);
+    application.setMessageHandler([&window](const std::string& message) { window.showMessage(message); });
     window.restoreSettings();
     if (launch.project.empty() || !window.projects().open(launch.project)) window.projects().create();
     FirstFrame firstFrame;
@@ -69,5 +77,7 @@ int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& launch)
     window.show();
     // What a crash left of other projects is offered once the window is there; opening one offers its own.
     if (launch.project.empty()) QTimer::singleShot(0, &window, [&window] { window.projects().offerRecovery(); });
-    return QApplication::exec();
+    const int code = QApplication::exec();
+    application.setMessageHandler({});
+    return code;
 }

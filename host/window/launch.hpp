@@ -2,6 +2,8 @@
 // and the headless commands never load Qt.
 #pragma once
 
+#include "plugin_runtime.hpp"
+
 #include <jet/catalog.hpp>
 #include <jet/events.hpp>
 #include <jet/plugins.hpp>
@@ -25,6 +27,14 @@ struct WindowLaunch {
     /// Brings in the plugins beside a project; `ask` is asked whether to trust them. Returns what the user should know.
     std::function<std::string(const std::filesystem::path& project, const std::function<bool(const std::string&)>& ask)>
         useProjectPlugins = {};
+    /// Null: plugins are not guarded in the window and cannot be reloaded, as in tests.
+    PluginRuntime* runtime = nullptr;
+    /// Runs that ended inside plugins, and what to do when the user has chosen which ones to go on without. The catalog
+    /// is used only after that.
+    std::vector<CrashNote> crashes = {};
+    std::function<void(const std::vector<std::string>& leftOut)> goOnWithout = {};
+    /// Folders whose plugins are reloaded when they are rebuilt.
+    std::vector<std::filesystem::path> watch = {};
 };
 
 }  // namespace jet::host

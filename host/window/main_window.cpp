@@ -26,8 +26,8 @@ constexpr MenuSpec kMenus[] = {
      "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.paste-in-place edit.duplicate "
      "edit.delete | edit.select-all edit.group edit.ungroup | edit.settings"},
     {QT_TRANSLATE_NOOP("Actions", "&Scene"), "scene.new @scenes | @effects"},
-    {QT_TRANSLATE_NOOP("Actions", "&View"),
-     "view.zoom-in view.zoom-out view.zoom-reset view.frame | view.grid | @panels view.maximize view.reset-layout"},
+    {QT_TRANSLATE_NOOP("Actions", "&View"), "view.zoom-in view.zoom-out view.zoom-reset view.frame | view.grid | "
+                                            "@panels view.maximize view.reset-layout | plugins.reload"},
     {QT_TRANSLATE_NOOP("Actions", "&Play"), "play.play play.pause play.step play.stop"},
 };
 constexpr const char* kMainBar = "file.new file.open file.save | edit.undo edit.redo | play.play play.pause play.step "
@@ -45,14 +45,14 @@ QString number(double value, int decimals) { return QString::number(value, 'f', 
 
 MainWindow::MainWindow(const WindowLaunch& launch)
     : catalog_(launch.catalog), noPlugins_(launch.catalog), plugins_(launch.plugins ? *launch.plugins : noPlugins_),
-      events_(launch.events), safeMode_(launch.safeMode), pluginProblems_(launch.pluginProblems), pump_(launch.events),
-      simulation_(launch.events), messages_(new MessageBar(nullptr)),
+      events_(launch.events), safeMode_(launch.safeMode), pluginProblems_(launch.pluginProblems),
+      runtime_(launch.runtime), pump_(launch.events), simulation_(launch.events), messages_(new MessageBar(nullptr)),
       documents_(new Documents(*this, toolOptions_, nullptr)),
       actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
       projects_(*this, *documents_, this), pluginController_(*this, projects_, *messages_, this),
       formats_(*this, *documents_, this), edits_(*this, *documents_, this), commands_(*this, *documents_, this),
       player_(*this, *documents_, this), tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this),
-      views_(*documents_, docks_, this)
+      reloader_(*this, *documents_, tools_, docks_, launch.runtime, this), views_(*documents_, docks_, this)
 {
     pluginController_.setUseProjectPlugins(launch.useProjectPlugins);
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
@@ -66,6 +66,7 @@ MainWindow::MainWindow(const WindowLaunch& launch)
     createStatusBar();
     connectDocuments();
     followEvents();
+    reloader_.watch(launch.watch);
 }
 
 MainWindow::~MainWindow()
@@ -101,6 +102,7 @@ void MainWindow::createActions()
     actions_.add(edits_.actions());
     actions_.add(player_.actions());
     actions_.add(views_.actions());
+    actions_.add(reloader_.actions());
     actions_.add({
         {"scene.new", QT_TRANSLATE_NOOP("Actions", "&New scene"), "plus", "", newScene},
         {"file.quit", QT_TRANSLATE_NOOP("Actions", "&Quit"), "", "Ctrl+Q", [this] { close(); }},
@@ -213,6 +215,7 @@ void MainWindow::followEvents()
 void MainWindow::showPluginProblems()
 {
     if (!pluginProblems_) return;
+    if (runtime_) docks_.showFailures(*runtime_);
     for (std::string& problem : pluginProblems_()) {
         if (shownProblems_.insert(problem).second) showMessage(std::move(problem));
     }

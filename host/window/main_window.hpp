@@ -12,6 +12,7 @@
 #include "window/message_bar.hpp"
 #include "window/play_controller.hpp"
 #include "window/plugin_controller.hpp"
+#include "window/plugin_reloader.hpp"
 #include "window/project_controller.hpp"
 #include "window/tool_controller.hpp"
 #include "window/view_controller.hpp"
@@ -97,6 +98,7 @@ private:
     EventsCenter& events_;
     bool safeMode_;
     std::function<std::vector<std::string>()> pluginProblems_;
+    PluginRuntime* runtime_;
     std::set<std::string> shownProblems_;
     EventPump pump_;
     ToolOptions toolOptions_;
@@ -112,6 +114,7 @@ private:
     PlayController player_;
     ToolController tools_;
     DockArea docks_;
+    PluginReloader reloader_;
     ViewController views_;
     QLabel* pointer_ = nullptr;
     QLabel* zoom_ = nullptr;

@@ -3,7 +3,11 @@
 // it ended. Channels belong to the owner's thread and need no lock; other threads subscribe and leave through the
 // queue, and what stops a handler at once is a flag in the subscription's link. (A lock around each channel would cost
 // more than the delivery itself.)
+#include "thread_rule.hpp"
+
+#include <jet/call_watch.hpp>
 #include <jet/events.hpp>
+#include <jet/result.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -32,13 +36,83 @@ struct KeyHash {
     }
 };
 
+/// Listeners of one plugin in a row share one guarded call: entering for each would cost more than most handlers.
+class CallsByOwner {
+public:
+    CallsByOwner() = default;
+    CallsByOwner(const CallsByOwner&) = delete;
+    CallsByOwner& operator=(const CallsByOwner&) = delete;
+    ~CallsByOwner() { leave(); }
+
+    /// False: the plugin is switched off.
+    bool enter(CallWatch::Owner owner)
+    {
+        if (owner == current_) return true;
+        leave();
+        if (!watch_ || owner == 0) return true;
+        if (!watch_->enter(owner)) return false;
+        current_ = owner;
+        return true;
+    }
+    void leave() noexcept
+    {
+        if (current_ != 0) watch_->leave();
+        current_ = 0;
+    }
+    /// False: it was JET's own.
+    bool blame(CallWatch::Owner owner, std::exception_ptr problem)
+    {
+        if (!watch_ || owner == 0) return false;
+        watch_->failed(owner, std::move(problem));
+        return true;
+    }
+
+private:
+    CallWatch* watch_ = CallWatch::get();
+    CallWatch::Owner current_ = 0;
+};
+
+void countListener(CallWatch::Owner owner, int change)
+{
+    if (owner == 0) return;
+    if (CallWatch* watch = CallWatch::get()) watch->listens(owner, change);
+}
+
+/// The owners of all centers, for those who are given one.
+struct Owners {
+    std::mutex mutex;
+    std::unordered_map<const EventsCenter*, std::thread::id> threads;
+};
+
+Owners& owners()
+{
+    static auto* const all = new Owners;  // outlives centers that are static
+    return *all;
+}
+
 }  // namespace
+
+std::thread::id ownerThreadOf(const EventsCenter& events)
+{
+    const std::lock_guard lock(owners().mutex);
+    return owners().threads.at(&events);
+}
+
+void refuseThread(const char* call, const void* code)
+{
+    const std::string rule = std::string(call) +
+                             " was called on another thread than the one that owns the scenes and their events; hand "
+                             "the work over with EventsCenter::enqueue or EventsCenter::post";
+    if (CallWatch* watch = CallWatch::get()) watch->brokeRule(code, rule);
+    throw Failure(Error(rule));
+}
 
 /// What subscription and slot share.
 struct Subscription::Link {
     std::weak_ptr<EventsCenter::Private> center;
     Key key;
-    std::uint64_t serial = 0;  // when it was entered: ascending within a channel. Owner's thread
+    CallWatch::Owner owner = 0;  // the plugin the handler's code is of; 0: JET's own
+    std::uint64_t serial = 0;    // when it was entered: ascending within a channel. Owner's thread
     std::atomic<bool> alive{true};
 };
 
@@ -58,6 +132,13 @@ struct EventsCenter::Private {
     };
     using Channels = std::unordered_map<Key, std::unique_ptr<Channel>, KeyHash>;
 
+    ~Private()
+    {
+        for (const auto& [key, channel] : channels)
+            for (const Slot& slot : channel->slots)
+                if (slot.alive) countListener(slot.link->owner, -1);
+    }
+
     Channels channels;
     std::uint64_t serial = 0;
     std::size_t listeners = 0;
@@ -75,15 +156,20 @@ struct EventsCenter::Private {
         Channel& channel = *found->second;
         const std::uint64_t last = serial;  // who subscribes during delivery hears from the next event on
         ++channel.delivering;
+        CallsByOwner calls;
         for (std::size_t i = 0, n = channel.slots.size(); i < n; ++i) {
             Slot& slot = channel.slots[i];
             if (!slot.alive || slot.serial > last || !slot.link->alive.load(std::memory_order_acquire)) continue;
+            const CallWatch::Owner owner = slot.link->owner;
+            if (!calls.enter(owner)) continue;
             try {
                 slot.handler(event);
             } catch (...) {
-                report(std::current_exception());
+                calls.leave();
+                if (!calls.blame(owner, std::current_exception())) report(std::current_exception());
             }
         }
+        calls.leave();
         --channel.delivering;
         sweep(key);
     }
@@ -108,11 +194,13 @@ struct EventsCenter::Private {
             if (slot.alive) found->second->slots.push_back(std::move(slot));
     }
 
-    static std::shared_ptr<Link> link(const std::shared_ptr<Private>& center, const Key& key)
+    /// `caller`: an address in the listener's code. The templates that subscribe are compiled into its library.
+    static std::shared_ptr<Link> link(const std::shared_ptr<Private>& center, const Key& key, const void* caller)
     {
         auto made = std::make_shared<Link>();
         made->center = center;
         made->key = key;
+        if (const CallWatch* watch = CallWatch::get()) made->owner = watch->ownerOf(caller);
         return made;
     }
 
@@ -133,6 +221,7 @@ struct EventsCenter::Private {
         channel->slots.push_back({std::move(handler), link, link->serial, true});
         ++channel->alive;
         ++listeners;
+        countListener(link->owner, 1);
     }
 
     void leave(const Link& link)
@@ -146,6 +235,7 @@ struct EventsCenter::Private {
         slot->alive = false;
         --channel.alive;
         --listeners;
+        countListener(link.owner, -1);
         // What the handler holds goes now, unless it may be the one that is running.
         std::function<void(const void*)> handler;
         if (channel.delivering == 0) {
@@ -210,13 +300,22 @@ void Subscription::reset()
     }
 }
 
-EventsCenter::EventsCenter() : d_(std::make_shared<Private>()) {}
-EventsCenter::~EventsCenter() = default;
+EventsCenter::EventsCenter() : d_(std::make_shared<Private>())
+{
+    const std::lock_guard lock(owners().mutex);
+    owners().threads.emplace(this, d_->owner);
+}
+
+EventsCenter::~EventsCenter()
+{
+    const std::lock_guard lock(owners().mutex);
+    owners().threads.erase(this);
+}
 
 Subscription EventsCenter::subscribeErased(const void* sender, EventType type, std::function<void(const void*)> handler)
 {
     Subscription subscription;
-    subscription.link_ = d_->link(d_, {sender, type.hash});
+    subscription.link_ = d_->link(d_, {sender, type.hash}, __builtin_return_address(0));
     d_->subscribe(subscription.link_, std::move(handler));
     return subscription;
 }
@@ -231,7 +330,7 @@ Subscription EventsCenter::subscribeBursts(const void* sender, EventType type, s
     };
     auto burst = std::make_shared<Burst>(Burst{std::move(collect), std::move(deliver)});
     Subscription subscription;
-    subscription.link_ = d_->link(d_, {sender, type.hash});
+    subscription.link_ = d_->link(d_, {sender, type.hash}, __builtin_return_address(0));
     d_->subscribe(subscription.link_, [burst, link = std::weak_ptr(subscription.link_)](const void* event) {
         burst->collect(event);
         const auto subscribed = link.lock();
@@ -240,7 +339,15 @@ Subscription EventsCenter::subscribeBursts(const void* sender, EventType type, s
         center->enqueue([burst, link] {
             burst->queued = false;
             const auto still = link.lock();
-            if (still && still->alive.load(std::memory_order_acquire)) burst->deliver();
+            if (!still || !still->alive.load(std::memory_order_acquire)) return;
+            CallsByOwner calls;
+            if (!calls.enter(still->owner)) return;
+            try {
+                burst->deliver();
+            } catch (...) {
+                calls.leave();
+                if (!calls.blame(still->owner, std::current_exception())) throw;
+            }
         });
     });
     return subscription;

@@ -72,7 +72,7 @@ const PropertyTable* itemTable(Catalog& catalog, std::string_view type)
 }
 
 ItemsCenter::Private::Private(Scene& s, EventsCenter& e, Catalog& c)
-    : scene(s), events(e), catalog(c), root(std::make_unique<Item>(kRootId, GroupItem::type))
+    : scene(s), events(e), catalog(c), owner(ownerThreadOf(e)), root(std::make_unique<Item>(kRootId, GroupItem::type))
 {
     Item::Mutator::setName(*root, "Top group");
     byId.insert(kRootId.value, root.get());
@@ -351,8 +351,14 @@ ItemsCenter::~ItemsCenter() = default;
 
 Transaction ItemsCenter::begin(std::string_view label)
 {
+    requireThread(d_->owner, "ItemsCenter::begin", __builtin_return_address(0));
     d_->selection();  // without those that were removed
     d_->levels.push_back({++d_->serial, std::string(label), d_->changes.size(), d_->ordered, d_->nextId});
+    d_->levels.back().mark = OpenMark(*this, d_->levels.back().label, [](ItemsCenter& center) {
+        const std::size_t innermost = center.d_->levels.size() - 1;
+        center.d_->revertLevel(innermost);
+        center.d_->closeLevels(innermost);
+    });
     return Transaction(*this, d_->serial);
 }
 
@@ -371,6 +377,11 @@ const Item* ItemsCenter::find(ItemId id) const { return d_->byId.find(id.value);
 std::size_t ItemsCenter::itemCount() const { return d_->byId.size() - 1; }
 const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection(); }
 bool ItemsCenter::isSelected(ItemId id) const { return d_->selected.contains(id.value); }
-void ItemsCenter::setSelection(std::vector<ItemId> items) { d_->setSelection(std::move(items)); }
+
+void ItemsCenter::setSelection(std::vector<ItemId> items)
+{
+    requireThread(d_->owner, "ItemsCenter::setSelection", __builtin_return_address(0));
+    d_->setSelection(std::move(items));
+}
 
 }  // namespace jet

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "item_mutator.hpp"
+#include "open_transactions.hpp"
 #include "spatial_index.hpp"
+#include "thread_rule.hpp"
 
 #include <jet/catalog.hpp>
 #include <jet/item_type.hpp>
@@ -69,6 +71,7 @@ struct OpenLevel {
     std::size_t changesBefore = 0;
     SelectionPtr selectionBefore;
     std::uint64_t nextIdBefore = 0;
+    OpenMark mark = {};
 };
 
 struct UndoStep;
@@ -79,6 +82,7 @@ struct ItemsCenter::Private {
     Scene& scene;
     EventsCenter& events;
     Catalog& catalog;
+    const std::thread::id owner;  // of the events, and so of the scene
     std::unique_ptr<Item> root;
     IdTable byId;
     std::uint64_t nextId = 1;

@@ -86,6 +86,7 @@ bool Transaction::isEmpty() const
 
 ItemsCenter& Transaction::open() const
 {
+    if (center_) requireThread(center_->d_->owner, "Transaction", nullptr);
     if (!isOpen()) fail("the transaction is no longer open");
     const auto& levels = center_->d_->levels;
     if (levels.back().serial != serial_)

@@ -161,6 +161,7 @@ std::string UndoRedoCenter::redoLabel() const { return canRedo() ? d_->steps[d_-
 
 void UndoRedoCenter::undo()
 {
+    requireThread(d_->items->d_->owner, "UndoRedoCenter::undo", __builtin_return_address(0));
     if (items().inTransaction())
         throw Failure(Error("finish or cancel '" + items().transactionLabel() + "' before undoing"));
     if (canUndo()) take(--d_->done, ItemsChanged::Cause::Undo);
@@ -168,6 +169,7 @@ void UndoRedoCenter::undo()
 
 void UndoRedoCenter::redo()
 {
+    requireThread(d_->items->d_->owner, "UndoRedoCenter::redo", __builtin_return_address(0));
     if (items().inTransaction())
         throw Failure(Error("finish or cancel '" + items().transactionLabel() + "' before redoing"));
     if (canRedo()) take(d_->done++, ItemsChanged::Cause::Redo);

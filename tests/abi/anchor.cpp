@@ -2,6 +2,7 @@
 // also of those that no exported function mentions. Written by scripts/check-abi --update.
 #include <jet/arrange.hpp>
 #include <jet/box_tool.hpp>
+#include <jet/call_watch.hpp>
 #include <jet/catalog.hpp>
 #include <jet/change.hpp>
 #include <jet/editor.hpp>
@@ -54,6 +55,7 @@ TYPE(jet::Distribution)
 TYPE(jet::FlipAxis)
 TYPE(jet::StackOrder)
 TYPE(jet::BoxTool)
+TYPE(jet::CallWatch)
 TYPE(jet::ContributionKind)
 TYPE(jet::Contribution)
 TYPE(jet::Catalog)

@@ -1,6 +1,8 @@
 // Transactions within transactions: savepoints of one undo step. What single ones do is in items_center_test.cpp.
 #include "scene_fakes.hpp"
 
+#include <jet/call_watch.hpp>
+
 namespace jet {
 namespace {
 
@@ -102,6 +104,25 @@ TEST_F(NestedTransactionTest, AbandoningEndsAllOfThem)
     EXPECT_FALSE(outer.isOpen());
     EXPECT_EQ(scene.hash(), before);
     EXPECT_EQ(items().transactionLabel(), "");
+}
+
+TEST_F(NestedTransactionTest, WhatAPluginLeftOpenIsTakenBackWithoutTheOuterOnes)
+{
+    auto outer = items().begin("Outer");
+    outer.add<ShapeItem>(layer());
+    const std::size_t open = openTransactionCount();
+    auto inner = items().begin("Inner");
+    inner.add<ShapeItem>(layer());
+    auto innermost = items().begin("Innermost");
+    innermost.add<ShapeItem>(layer());
+    EXPECT_EQ(openTransactionLabel(items()), "Innermost");
+    EXPECT_EQ(openTransactionCount(), open + 2);
+    EXPECT_EQ(abandonTransactions(open), "Inner");
+    EXPECT_FALSE(inner.isOpen());
+    ASSERT_TRUE(outer.isOpen());
+    EXPECT_EQ(shapes(), 1u);
+    outer.commit();
+    EXPECT_EQ(openTransactionCount(), open - 1);
 }
 
 TEST_F(NestedTransactionTest, RestartGoesBackToItsOwnBeginning)
