@@ -188,7 +188,10 @@ TEST(Settings, DroppingThemLeavesThoseOfOthers)
     test::PluginFolder folder;
     Manifest manifest;
     manifest.id = "a.rope";
-    manifest.contributions.push_back({ContributionKind::Tool, "rope", "Rope", "a.rope", "", "", "", "", {}, 100});
+    Contribution rope{};
+    rope.kind = ContributionKind::Tool;
+    rope.id = "rope", rope.label = "Rope", rope.plugin = "a.rope";
+    manifest.contributions.push_back(std::move(rope));
     std::ofstream(folder.path() / "disabled-plugins") << "a.other\na.rope\n";
     std::ofstream(folder.path() / "window.ini") << "[layout]\nrope\\x=1\n[tools]\nrope\\size=3, 5\nropes\\size=3, 6\n";
     ASSERT_TRUE(dropSettings(manifest, folder.path()));
