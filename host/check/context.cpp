@@ -83,7 +83,7 @@ void Stage::fill()
         if (one.kind != ContributionKind::Effect) continue;
         const Item* item = random.item(scene, [](const Item& i) { return !i.isContainer() && !i.path().isEmpty(); });
         if (!item) continue;
-        context.call("Effect::applied", [&] {
+        context.call("Effect::rejects or Effect::applied", [&] {
             try {
                 auto adding = items().begin("Fill");
                 adding.addEffect(*item, one.id);

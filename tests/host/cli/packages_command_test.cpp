@@ -156,7 +156,7 @@ TEST_F(PackagesTest, WhatIsRequiredMustBeThereAndWhoRequiresItIsNamed)
     const Outcome refused = plain("plugins install " + top);
     EXPECT_EQ(refused.code, 1);
     EXPECT_THAT(refused.err,
-                HasSubstr("requires org.acme.base 1.1.0 is not installed; org.acme.other is not installed"));
+                HasSubstr("requires org.acme.base 1.1 is not installed; org.acme.other is not installed"));
     EXPECT_EQ(version("org.acme.top"), "");
     ASSERT_EQ(plain("plugins install " + packed("org.acme.base", "1.0.0")).code, 0);
     ASSERT_EQ(plain("plugins install " + packed("org.acme.other")).code, 0);
@@ -176,7 +176,7 @@ TEST_F(PackagesTest, ALibraryThatDoesNotLoadIsNotInstalled)
 {
     const Outcome text = plain("plugins install " + packed("org.acme.text", "1.0.0", {}, "not a library"));
     EXPECT_EQ(text.code, 1);
-    EXPECT_THAT(text.err, HasSubstr("the plugin org.acme.text 1.0.0 cannot be installed: its library does not load"));
+    EXPECT_THAT(text.err, HasSubstr("is no shared library; build or install the plugin again"));
     const std::pair<const char*, const char*> fixtures[] = {
         {"throws-on-load", "it fails while registering: no licence found"},
         {"undeclared", "effect 'surprise' is registered but not declared"},

@@ -195,7 +195,7 @@ TEST_F(PluginManagerTest, AFileThatIsNoLibraryDoesNotLoad)
     std::ofstream(folder.path() / "org.acme.text/none.so") << "not ELF";
     scan();
     EXPECT_EQ(manager->effect("text"), nullptr);
-    EXPECT_THAT(state("org.acme.text"), HasSubstr("its library does not load: "));
+    EXPECT_THAT(state("org.acme.text"), HasSubstr("is no shared library"));
 }
 
 // --- dependencies
