@@ -155,7 +155,7 @@ bool ProjectController::recover(const std::filesystem::path& journal)
     tellNotes();
     for (const std::string& note : recovery->notes) editor_.showMessage(note);
     // The old journal goes only when the new one holds all of it.
-    if (const auto kept = journal_->recordEverything(); !kept) {
+    if (const auto kept = journal_->recordEverything(recovery->changes); !kept) {
         editor_.showMessage(kept.error().text());
     } else if (const auto removed = Journal::remove(journal); !removed) {
         editor_.showMessage(removed.error().text());

@@ -384,7 +384,11 @@ const fs::path& Journal::file() const { return d_->file; }
 std::size_t Journal::changeCount() const { return d_->changes; }
 void Journal::discard() { d_->discard(); }
 void Journal::recordStructure() { d_->recordStructure(); }
-Result<void> Journal::recordEverything() { return d_->snapshot(); }
+Result<void> Journal::recordEverything(std::size_t unsaved)
+{
+    d_->changes = std::max<decltype(d_->changes)>(d_->changes, unsaved);
+    return d_->snapshot();
+}
 void Journal::sync()
 {
     if (d_->writer) (void)d_->writer->sync();

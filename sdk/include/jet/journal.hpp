@@ -63,8 +63,9 @@ public:
     /// this by itself.
     void recordStructure();
     /// After a recovery: the project's unsaved state becomes this journal's first record, so that the recovered
-    /// journal may be removed.
-    Result<void> recordEverything();
+    /// journal may be removed. `unsaved` is the number of changes it stands for: findJournals() leaves out journals
+    /// without any.
+    Result<void> recordEverything(std::size_t unsaved = 1);
     /// Waits until all that was recorded is on the disk.
     void sync();
     /// Called when changes can no longer be recorded (a full disk), and, with an empty text, when they can be again:

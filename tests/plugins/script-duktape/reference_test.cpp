@@ -186,9 +186,11 @@ TEST_F(ScriptReferenceTest, EveryDeclarationTellsSinceWhen)
 {
     std::istringstream in(sourceFile("sdk/share/jet.d.ts"));
     std::string before;
-    for (std::string line; std::getline(in, line); before = line)
-        if (line.starts_with("declare ") || line.starts_with("interface ") || line.starts_with("type "))
+    for (std::string line; std::getline(in, line); before = line) {
+        if (line.starts_with("declare ") || line.starts_with("interface ") || line.starts_with("type ")) {
             EXPECT_NE(before.find("@since 0."), std::string::npos) << line;
+        }
+    }
 }
 
 // All ```js blocks, each as a script of its own in one scene, then played for a second with keys and pointer.
