@@ -57,6 +57,7 @@ void PluginController::enable(const std::string& plugin)
 std::set<PluginController::Wanted> PluginController::missingTypes() const
 {
     std::set<Wanted> all, missing;
+    if (!projects_.hasProject()) return missing;  // the plugins of the first project come in before it is read
     for (const Scene* scene : editor_.project().scenes()) {
         scene->root().walk([&](const Item& item) {
             if (!builtInItemType(item.type())) all.emplace(ContributionKind::ItemType, item.type());

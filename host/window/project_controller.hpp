@@ -30,6 +30,8 @@ public:
     void fillRecentMenu(QMenu& menu);
 
     Project& project() const { return *project_; }
+    /// False until the first one is made or opened.
+    bool hasProject() const { return project_ != nullptr; }
     /// A new, untitled project.
     void create();
     /// False, and the present project stays, when it cannot be read; the message bar says why.

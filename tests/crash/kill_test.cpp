@@ -135,7 +135,8 @@ TEST_F(KillTest, NothingCommittedIsLostAndNoFileIsBroken)
         ASSERT_TRUE(found->hash() == finished || found->hash() == underWay)
             << "round " << round << ", seed " << seed << ", " << progress->done << " edits, " << how;
         if (file.empty()) continue;
-        ASSERT_TRUE(found->save()) << "round " << round;
+        const Result<void> saved = found->save();
+        ASSERT_TRUE(saved) << "round " << round << ": " << (saved ? "" : saved.error().text());
         ASSERT_EQ(Project::load(file, events, catalog).orThrow()->hash(), found->hash()) << "round " << round;
     }
     std::printf("%d kills, %llu edits, %llu saves, %llu recoveries from a journal\n", rounds,

@@ -91,7 +91,7 @@ TEST(NumberExpression, SaysWhatIsWrongAndWhere)
         {"sqrt(-1)", "9: The result is not a number that can be used."},
         {"1e300*1e300", "12: The result is not a number that can be used."},
         {"foo", "1: \"foo\" is not known here."},
-        {"sqrt 4", "5: After \"sqrt\" there should be a value in brackets."},
+        {"sqrt 4", "6: After \"sqrt\" there should be a value in brackets."},
         {"nan", "1: \"nan\" is not known here."},
         {"10 mm", "4: \"mm\" is no unit of this field, which is a plain number."},
     };
