@@ -66,8 +66,8 @@ pixels() { convert "$out/$1.png" -crop 800x400+100+150 rgba:- 2>/dev/null | sha2
 same() { [ "$(pixels "$1")" = "$(pixels "$2")" ]; }
 differ() { ! same "$1" "$2"; }
 save() { key ctrl+s; settle 0.4; }
-# All files of the project, names and bytes.
-content() { (cd "$project" && find . -type f -print0 | sort -z | xargs -0 sha256sum) | sha256sum; }
+# All files of the project but the hidden ones (backups, the lock), names and bytes.
+content() { (cd "$project" && find . -type f -not -path '*/.*' -print0 | sort -z | xargs -0 sha256sum) | sha256sum; }
 
 openbox >/dev/null 2>&1 &
 manager=$!

@@ -155,8 +155,7 @@ TEST_F(PackagesTest, WhatIsRequiredMustBeThereAndWhoRequiresItIsNamed)
     const std::string top = packed("org.acme.top", "1.0.0", {"org.acme.base 1.1", "org.acme.other"});
     const Outcome refused = plain("plugins install " + top);
     EXPECT_EQ(refused.code, 1);
-    EXPECT_THAT(refused.err,
-                HasSubstr("requires org.acme.base 1.1 is not installed; org.acme.other is not installed"));
+    EXPECT_THAT(refused.err, HasSubstr("requires org.acme.base 1.1 is not installed; org.acme.other is not installed"));
     EXPECT_EQ(version("org.acme.top"), "");
     ASSERT_EQ(plain("plugins install " + packed("org.acme.base", "1.0.0")).code, 0);
     ASSERT_EQ(plain("plugins install " + packed("org.acme.other")).code, 0);

@@ -108,8 +108,9 @@ TEST_F(RepositoryTest, WhatCannotBeHadIsNamedWithItsChain)
     EXPECT_THAT(
         resolve("a.top"),
         ElementsAre(HasSubstr("a.top → a.middle → a.gone cannot be installed: the repository does not have it")));
-    EXPECT_THAT(resolve("a.old"),
-                ElementsAre(HasSubstr("the repository has version 1.0.0 and not version 2.0.0 or a later one before 3.0.0")));
+    EXPECT_THAT(
+        resolve("a.old"),
+        ElementsAre(HasSubstr("the repository has version 1.0.0 and not version 2.0.0 or a later one before 3.0.0")));
     EXPECT_THAT(resolve("a.future"), ElementsAre(HasSubstr("does not fit this JET: it was written for SDK 99.0.0")));
     EXPECT_THAT(resolve("a.one"), ElementsAre(HasSubstr("in a circle: a.one → a.two → a.one")));
     EXPECT_THAT(resolve("a.nothing"), ElementsAre(HasSubstr("the repository does not have it; 'jet plugins search")));
