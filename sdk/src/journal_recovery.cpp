@@ -18,9 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A damaged record may hold any number: the clock's nanoseconds reach from 1678 to 2262.
 std::chrono::system_clock::time_point timeOf(std::int64_t ms)
 {
-    return std::chrono::system_clock::time_point(std::chrono::milliseconds(ms));
+    constexpr std::int64_t kFarthest = 9'200'000'000'000;
+    return std::chrono::system_clock::time_point(std::chrono::milliseconds(std::clamp(ms, -kFarthest, kFarthest)));
 }
 
 /// A scene's part of a journal: what it was, and what happened to it, in order.
