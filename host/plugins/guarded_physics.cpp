@@ -76,6 +76,10 @@ public:
     {
         return use(Callback::WorldBuild, [&](PhysicsWorld& w) { return w.addJoint(def); });
     }
+    ActuatorHandle addForceField(const ForceFieldDef& def) override
+    {
+        return use(Callback::WorldBuild, [&](PhysicsWorld& w) { return w.addForceField(def); });
+    }
 
     std::size_t bodyCount() const override
     {
@@ -133,6 +137,26 @@ public:
     {
         return use(Callback::WorldRead, [&](PhysicsWorld& w) { return w.nearest(point, reach, filter); });
     }
+    double springTension(BodyHandle body, std::uint32_t index) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return w.springTension(body, index); });
+    }
+    std::span<const std::uint32_t> pieces(BodyHandle body) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return w.pieces(body); });
+    }
+    std::vector<std::vector<std::uint32_t>> borders(BodyHandle body) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return w.borders(body); });
+    }
+    std::size_t jointCount() const override
+    {
+        return use(Callback::WorldRead, [](PhysicsWorld& w) { return w.jointCount(); });
+    }
+    std::uint32_t island(BodyHandle body) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return w.island(body); });
+    }
     std::uint64_t hash() const override
     {
         return use(Callback::WorldRead, [](PhysicsWorld& w) { return w.hash(); });
@@ -186,6 +210,47 @@ public:
     void wake(BodyHandle body) override
     {
         act([&](PhysicsWorld& w) { w.wake(body); });
+    }
+
+    void setSettings(const WorldSettings& settings) override
+    {
+        act([&](PhysicsWorld& w) { w.setSettings(settings); });
+    }
+    void setBody(BodyHandle body, const BodyCommon& common) override
+    {
+        act([&](PhysicsWorld& w) { w.setBody(body, common); });
+    }
+    void setMass(BodyHandle body, double mass) override
+    {
+        act([&](PhysicsWorld& w) { w.setMass(body, mass); });
+    }
+    void setEnabled(BodyHandle body, bool enabled) override
+    {
+        act([&](PhysicsWorld& w) { w.setEnabled(body, enabled); });
+    }
+    void setJoint(JointHandle joint, const JointDef& def) override
+    {
+        act([&](PhysicsWorld& w) { w.setJoint(joint, def); });
+    }
+    void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio) override
+    {
+        act([&](PhysicsWorld& w) { w.setSpring(spring, restLength, ks, kd, tearRatio); });
+    }
+    void setForceField(ActuatorHandle field, const ForceFieldDef& def) override
+    {
+        act([&](PhysicsWorld& w) { w.setForceField(field, def); });
+    }
+    void setSoftMatter(BodyHandle body, const SoftMatter& matter) override
+    {
+        act([&](PhysicsWorld& w) { w.setSoftMatter(body, matter); });
+    }
+    void setSprings(BodyHandle body, double ks, double kd, double tearRatio) override
+    {
+        act([&](PhysicsWorld& w) { w.setSprings(body, ks, kd, tearRatio); });
+    }
+    void setPinned(BodyHandle body, std::uint32_t particle, bool pinned) override
+    {
+        act([&](PhysicsWorld& w) { w.setPinned(body, particle, pinned); });
     }
 
     std::vector<std::byte> save() const override

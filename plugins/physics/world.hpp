@@ -44,6 +44,7 @@ public:
 
     JointHandle addJoint(const JointDef&) override;
     JointState joint(JointHandle) const override;
+    std::size_t jointCount() const override { return rigid_.jointCount(); }
     void setMotor(JointHandle, bool driven, double speed) override;
     void setJointTarget(JointHandle, const Vec2& target) override;
     void removeJoint(JointHandle) override;

@@ -119,6 +119,8 @@ JointState World::joint(JointHandle handle) const
     const JointFrame frame = frameOf(joint, state_, rigid_.collider().bodies());
     JointState state = joint.state;
     state.broken = joint.broken;
+    state.pointA = frame.pointA;
+    state.pointB = frame.pointB;
     const Vec2 apart = frame.pointB - frame.pointA;
     switch (joint.def.kind) {
     case JointDef::Kind::Prismatic:

@@ -15,6 +15,21 @@ namespace {
 
 }  // namespace
 
+void PhysicsWorld::setSettings(const WorldSettings&) { refuse("settings that change while it runs"); }
+void PhysicsWorld::setBody(BodyHandle, const BodyCommon&) { refuse("properties of bodies that change while it runs"); }
+void PhysicsWorld::setMass(BodyHandle, double) { refuse("masses that change while it runs"); }
+void PhysicsWorld::setEnabled(BodyHandle, bool) { refuse("bodies that can be switched off"); }
+void PhysicsWorld::setJoint(JointHandle, const JointDef&) { refuse("joints"); }
+void PhysicsWorld::setSpring(ActuatorHandle, double, double, double, double)
+{
+    refuse("springs that change while it runs");
+}
+ActuatorHandle PhysicsWorld::addForceField(const ForceFieldDef&) { refuse("fields of force"); }
+void PhysicsWorld::setForceField(ActuatorHandle, const ForceFieldDef&) { refuse("fields of force"); }
+void PhysicsWorld::setSoftMatter(BodyHandle, const SoftMatter&) { refuse("soft bodies"); }
+void PhysicsWorld::setSprings(BodyHandle, double, double, double) { refuse("soft bodies"); }
+void PhysicsWorld::setPinned(BodyHandle, std::uint32_t, bool) { refuse("soft bodies"); }
+double PhysicsWorld::springTension(BodyHandle, std::uint32_t) const { refuse("soft bodies"); }
 JointHandle PhysicsWorld::addJoint(const JointDef&) { refuse("joints"); }
 JointState PhysicsWorld::joint(JointHandle) const { refuse("joints"); }
 void PhysicsWorld::setMotor(JointHandle, bool, double) { refuse("joints"); }

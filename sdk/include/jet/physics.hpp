@@ -7,6 +7,7 @@
 #pragma once
 
 #include <jet/geometry.hpp>
+#include <jet/physics_soft.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -40,6 +41,12 @@ enum class Precision : std::uint8_t {
 /// Instructions of the wide kernels; every choice gives the same bits.
 enum class Simd : std::uint8_t { Automatic, Sse2, Avx2 };
 
+/// How a world advances.
+enum class Method : std::uint8_t {
+    Automatic,         ///< whatever holds best: nothing explodes
+    SemiImplicitEuler  ///< as the thesis has it (§2.4.3.1): one substep, forces alone; for teaching and comparison
+};
+
 struct WorldSettings {
     Vec2 gravity{0, 98.1};       ///< scene units / s²
     double linearDamping = 0.0;  ///< 1/s; velocity decays as exp(-damping t)
@@ -55,6 +62,8 @@ struct WorldSettings {
     int substeps = 0;  ///< of the rigid solver a step; 0: 4 in large worlds of rigid bodies, else as the scene needs
     Precision precision = Precision::Automatic;
     Simd simd = Simd::Automatic;
+    Method method = Method::Automatic;
+    bool allowSleep = true;  ///< may groups of bodies that rest be left out until something wakes them?
 };
 
 /// Spring between two particles of one soft body (SPEC PH2).
@@ -89,14 +98,16 @@ struct BodyCommon {
     std::uint32_t layer = 1;     ///< bits: the layers it is on
     std::uint32_t mask = ~0U;    ///< bits: the layers it collides with; both sides must agree
     Vec2 oneSided;               ///< not null: only what comes against this direction collides (platforms)
+    bool allowSleep = true;      ///< may it fall asleep?
 };
 
-/// A simple convex part of a rigid body, in scene coordinates at rest.
+/// A simple part of a rigid body, in scene coordinates at rest.
 struct ShapeDef {
     enum class Kind : std::uint8_t {
         Circle,   ///< points[0] is the centre
         Capsule,  ///< around the segment from points[0] to points[1]
-        Polygon   ///< convex, 3 to 8 points, in either direction
+        Polygon,  ///< convex, 3 to 8 points, in either direction
+        Chain     ///< an open line of 2 points or more, solid to the right of its way; of fixed bodies only
     };
     Kind kind = Kind::Polygon;
     std::vector<Vec2> points;
@@ -113,6 +124,7 @@ struct SoftBodyDef {
     std::vector<std::vector<std::uint32_t>> borders;  ///< closed rings of particle indices
     std::vector<SpringDef> springs;
     std::vector<AngularSpringDef> angularSprings;
+    SoftMatter matter;
 };
 
 struct RigidBodyDef {
@@ -126,6 +138,8 @@ struct RigidBodyDef {
 struct Anchor {
     BodyHandle body = kNoHandle;
     Vec2 point;  ///< scene coordinates at the time of adding
+    /// Soft bodies only, scene units: holds all particles no farther than this from `point`; 0: those nearest to it.
+    double radius = 0;
 };
 
 /// Scene-level spring (SPEC PH7): joins two anchors. restLength < 0: the distance at the time of adding.
@@ -195,6 +209,7 @@ struct JointState {
     double torque = 0;  ///< on b
     double value = 0;   ///< angle (radians) or travel or distance (units) since the time of adding
     bool broken = false;
+    Vec2 pointA, pointB;  ///< where it holds the two, scene coordinates
 };
 
 /// Two bodies began to touch, or ended. Touches that go on are in contacts().
@@ -251,7 +266,10 @@ struct StepStats {
     std::uint32_t awakeBodies = 0;  ///< bodies that were computed
     std::uint32_t islands = 0;      ///< groups of bodies that touch or are joined; 0 where sleeping is off
     std::uint32_t colours = 0;      ///< groups of contacts that are solved side by side
-    std::size_t memory = 0;         ///< bytes the world holds for bodies, contacts and joints
+    std::uint32_t pairs = 0;        ///< pairs of parts whose boxes meet
+    std::uint32_t substeps = 0;     ///< the step was taken in
+    double islandsMs = 0, continuousMs = 0;
+    std::size_t memory = 0;  ///< bytes the world holds for bodies, contacts and joints
 };
 
 class JET_API PhysicsWorld {
@@ -294,7 +312,34 @@ public:
 
     // What follows an engine may lack; the default refuses with a sentence or answers "nothing".
 
+    /// Live changes. `setSettings` takes all but the count of materials, precision and SIMD; `setBody` all but `fixed`
+    /// and the initial velocities; `setJoint` all but the kind and the anchors.
+    virtual void setSettings(const WorldSettings&);
+    virtual void setBody(BodyHandle, const BodyCommon&);
+    virtual void setMass(BodyHandle, double mass);
+    /// A body that is not enabled stands still, is not seen by queries and meets nothing.
+    virtual void setEnabled(BodyHandle, bool enabled);
+    virtual void setJoint(JointHandle, const JointDef&);
+    /// restLength < 0: as it is.
+    virtual void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio);
+
+    /// `setForceField` may change all but the kind. Fields count by themselves.
+    virtual ActuatorHandle addForceField(const ForceFieldDef&);
+    virtual void setForceField(ActuatorHandle field, const ForceFieldDef&);
+    virtual void setSoftMatter(BodyHandle, const SoftMatter&);
+    /// Of all springs of a soft body; what is torn stays torn.
+    virtual void setSprings(BodyHandle, double ks, double kd, double tearRatio);
+    /// Holds a particle where it is, or lets it go.
+    virtual void setPinned(BodyHandle, std::uint32_t particle, bool pinned);
+    /// What the soft body's spring `index` pulls with now; below 0 where it pushes. For stress maps.
+    virtual double springTension(BodyHandle, std::uint32_t index) const;
+    /// [particles] which piece of its torn body a particle belongs to, from 0; empty: the body is whole.
+    virtual std::span<const std::uint32_t> pieces(BodyHandle) const { return {}; }
+    /// The walls of a soft body as they are now, closed rings of particle indices; pieces have their own.
+    virtual std::vector<std::vector<std::uint32_t>> borders(BodyHandle) const { return {}; }
+
     virtual JointHandle addJoint(const JointDef&);
+    virtual std::size_t jointCount() const { return 0; }
     virtual JointState joint(JointHandle) const;
     virtual void setMotor(JointHandle, bool driven, double speed);
     /// Moves the end of a joint that is fixed to the background (a mouse joint's target).
@@ -303,6 +348,8 @@ public:
 
     virtual bool awake(BodyHandle) const { return true; }
     virtual void wake(BodyHandle) {}
+    /// Number of the group of touching or joined bodies it was computed with; kNoHandle: none, or asleep.
+    virtual std::uint32_t island(BodyHandle) const { return kNoHandle; }
     /// Touches that began or ended in the last step, in ascending order of bodies.
     virtual std::span<const ContactEvent> contactEvents() const { return {}; }
 
