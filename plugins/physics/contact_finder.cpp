@@ -27,6 +27,7 @@ ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSett
     ContactPoint pattern;
     const double lengthA = a.fixed ? b.length : a.length, lengthB = b.fixed ? a.length : b.length;
     pattern.slop = kSlopPerLength * std::min(lengthA, lengthB);
+    pattern.thickness = a.matter.thickness + b.matter.thickness;
     pattern.friction = pair.friction;
     pattern.restitution = pair.restitution;
     pattern.resolve = settings.resolveCollisions && !a.sensor && !b.sensor;
@@ -41,8 +42,10 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     const auto start = std::chrono::steady_clock::now();
     updatePoints(state);
     // Nothing can meet where there is only one body.
-    lonely_ = std::count_if(state.bodies.begin(), state.bodies.end(),
-                            [](const BodyRecord& body) { return body.points.count > 0; }) < 2;
+    std::size_t bodies = 0;
+    for (const BodyRecord& body : state.bodies)
+        bodies += body.points.count == 0 ? 0 : body.matter.selfCollision ? 2 : 1;
+    lonely_ = bodies < 2;
     if (lonely_) {
         contacts.clear();
         return;
@@ -99,6 +102,11 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
         const ContactPoint pattern = patternOf(a, b, settings);
         narrow.collide(pair.a, pair.b, pattern, contacts);
         narrow.collide(pair.b, pair.a, pattern, contacts);
+    }
+    for (Index body = 0; body < state.bodies.size(); ++body) {
+        const BodyRecord& record = state.bodies[body];
+        if (record.matter.selfCollision && !record.fixed)
+            narrow.collideSelf(body, patternOf(record, record, settings), contacts);
     }
     // A point inside may have been found twice at one wall: once at its front, once to be pushed out; the latter
     // counts.
@@ -196,7 +204,8 @@ void ContactFinder::predictBody(const State& state, const BodyRecord& body, cons
     Box moved = motion.reach;
     moved.min += step, moved.max += step;
     motion.reach.extend(moved);
-    motion.reach = motion.reach.inflated(turning + motion.stray + 4 * kSlopPerLength * body.length);
+    motion.reach =
+        motion.reach.inflated(turning + motion.stray + 4 * kSlopPerLength * body.length + body.matter.thickness);
 }
 
 bool ContactFinder::strayed(const State& state, double elapsed) const

@@ -16,7 +16,8 @@ struct ContactPoint {
     // Found once a detection.
     Index point = 0, wall = 0;
     Index bodyA = 0, bodyB = 0;
-    double slop = 0;  // units; overlap that is left in peace, so that resting contacts persist
+    double slop = 0;       // units; overlap that is left in peace, so that resting contacts persist
+    double thickness = 0;  // units between the point and the wall when they touch
     double friction = 0, restitution = 0;
     double surprise = 0;   // units a hit may bring the point nearer than its velocity says
     bool resolve = true;   // false: sensors

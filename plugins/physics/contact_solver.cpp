@@ -88,7 +88,7 @@ std::uint8_t ContactSolver::refresh(ContactPoint& c)
     if (!(squared > 1e-24)) return 0;
     const double length = std::sqrt(squared);
     c.normal = perpendicular(edge) * (state_.walls.outward[c.wall] / length);
-    c.separation = (at - first).dot(c.normal);
+    c.separation = (at - first).dot(c.normal) - c.thickness;
     c.along = (at - first).dot(edge) / squared;
 
     c.armA = at - nodes.position[c.nodeA];
@@ -132,7 +132,7 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
     const double fromFirst = along * wallLength, fromSecond = (1 - along) * wallLength;
     if (fromFirst < -overhang(c.firstInset) || fromSecond < -overhang(c.secondInset)) return false;
     // A point that is behind the wall without having come to it went round its end: it is not to be pulled through.
-    if (c.separation < -kTouchDepth * c.slop && !c.engaged) return false;
+    if (c.separation + c.thickness < -kTouchDepth * c.slop && !c.engaged) return false;
     c.engaged = true;
     return true;
 }

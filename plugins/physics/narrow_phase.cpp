@@ -8,6 +8,7 @@ constexpr Index kManyPoints = 48;  // above this the points near the other body 
 // How far a rigid corner's own outside may lean with a wall's and still be thought to hit it; corners point away from
 // walls they cannot hit. The points of a soft body are not asked: where it is crushed its border may be folded.
 constexpr double kLean = 0.3;
+constexpr double kFacing = 0.2;       // how far outsides must oppose for a border to meet itself
 constexpr double kHeldBonus = 0.5;    // a wall that held the point counts as half as far
 constexpr double kFoldedPenalty = 2;  // soft bodies: a wall whose outside does not oppose the point's counts as farther
 constexpr double kShallow = 0.5;  // of the body's length: deeper inside, the nearest wall is taken whatever its side
@@ -34,7 +35,7 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
     contact.bodyB = bodyB;
     contact.surprise = motionA.surprise + motionB.surprise;
 
-    gatherPoints(*a_, motionB.reach.inflated(motionA.range));
+    gatherPoints(*a_, motionB.reach.inflated(motionA.range + pattern.thickness));
     for (Index p : candidates_) {
         const Vec2& at = state_.points.position[p];
         const Index node = state_.points.node[p];
@@ -42,7 +43,8 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
         const Vec2 carried = motionB.velocity + motionB.omega * perpendicular(at - motionB.centre);
         Approach approach;
         approach.point = p;
-        approach.reach = (own - carried).norm() * dt_ + motionA.stray + motionB.stray + 4 * pattern.slop;
+        approach.reach =
+            (own - carried).norm() * dt_ + motionA.stray + motionB.stray + 4 * pattern.slop + pattern.thickness;
         approach.at = at;
         approach.normal = state_.points.normal[p];
         if (a_->rigid) approach.normal = rotated(state_.nodes.rotation[a_->nodes.first], approach.normal);
@@ -51,6 +53,34 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
             approach.normal = unrotated(state_.nodes.rotation[nodeB], approach.normal);
         }
         if (b_->grid.bounds().inflated(approach.reach).contains(approach.at)) touch(approach, contact, found);
+    }
+}
+
+void NarrowPhase::collideSelf(Index body, const ContactPoint& pattern, std::vector<ContactPoint>& found)
+{
+    a_ = b_ = &state_.bodies[body];
+    frame_ = &state_.gridFrame(*b_);
+    const Motion& motion = motions_[body];
+    ContactPoint contact = pattern;
+    contact.bodyA = contact.bodyB = body;
+    contact.surprise = 2 * motion.surprise;
+    for (Index p = a_->points.first; p < a_->points.end(); ++p) {
+        const Vec2& normal = state_.points.normal[p];
+        if (normal.isZero()) continue;  // not on the border
+        const Vec2& at = state_.points.position[p];
+        const Vec2& own = state_.nodes.velocity[state_.points.node[p]];
+        const double reach = (own - motion.velocity).norm() * dt_ + motion.stray + 4 * pattern.slop + pattern.thickness;
+        contact.point = p;
+        const Vec2 span(reach, reach);
+        b_->grid.visit(Box(at - span, at + span), [&](Index edge) {
+            WallView seen;
+            contact.wall = b_->walls.first + edge;
+            if (state_.walls.first[contact.wall] == p || state_.walls.second[contact.wall] == p) return;
+            // The skin of a smooth border overlaps its own neighbours: only walls that look the other way count.
+            if (!view(contact.wall, at, seen) || normal.dot(seen.normal) > -kFacing || seen.distance > reach) return;
+            if (seen.separation < -kTouchDepth * pattern.slop && !heldBefore(p, contact.wall)) return;
+            found.push_back(contact);
+        });
     }
 }
 

@@ -21,6 +21,9 @@ public:
     /// Appends the contacts of A's points with B's walls. `pattern` carries what the pair has in common.
     void collide(Index bodyA, Index bodyB, const ContactPoint& pattern, std::vector<ContactPoint>& found);
 
+    /// Contacts of the border points of a soft body with its own walls that face them.
+    void collideSelf(Index body, const ContactPoint& pattern, std::vector<ContactPoint>& found);
+
 private:
     struct WallView {
         double separation, along, distance, length;

@@ -101,10 +101,18 @@ void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle han
     }
 }
 
+bool ShapeMemory::anyPinned(const Nodes& nodes, const Lattice& lattice)
+{
+    return std::any_of(lattice.nodes.begin(), lattice.nodes.end(), [&](Index n) { return nodes.invMass[n] == 0; });
+}
+
 void ShapeMemory::look(const State& state, double dt)
 {
     const Nodes& nodes = state.nodes;
     for (Lattice& lattice : lattices_) {
+        // What is nailed down has no shape of its own; neither has what flows.
+        lattice.relaxed = state.bodies[lattice.body].matter.yield > 0 || anyPinned(nodes, lattice);
+        if (lattice.relaxed) continue;
         const Motion motion = match(nodes, lattice);
         double off = 0, speed = 0;
         for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {

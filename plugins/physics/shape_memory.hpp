@@ -58,6 +58,7 @@ private:
         bool certain = true;  // is there a best R?
     };
 
+    static bool anyPinned(const Nodes&, const Lattice&);
     Motion match(const Nodes&, Lattice&) const;
     bool pull(const Nodes&, const Lattice&, const Motion&, double h);
     void removeNet(const Nodes&, const Lattice&, const Motion&);

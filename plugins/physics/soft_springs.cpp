@@ -63,9 +63,10 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         a_.push_back(nodeOf[spring.a]);
         b_.push_back(nodeOf[spring.b]);
         rest_.push_back(spring.restLength);
+        if (!drawn_.empty()) drawn_.push_back(spring.restLength);
         ks_.push_back(spring.ks);
         kd_.push_back(spring.kd);
-        tear_.push_back(spring.tearRatio > 0 ? spring.restLength * spring.tearRatio : 0);
+        tear_.push_back(std::max(spring.tearRatio, 0.0));
         alive_.push_back(spring.a != spring.b);
         stiffness_.push_back(0);
         damping_.push_back(0);
@@ -76,13 +77,18 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         mesh.blocks = soft::arrange(ends, mesh.nodes.count);
         mesh.coefficients.assign(mesh.blocks.count() * 3 * soft::kLanes, 0);
         measureBias(state, mesh);
-        if (mesh.tears) {
-            mesh.tear.assign(mesh.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
-            mesh.springAt.assign(mesh.tear.size(), kNone);
-            for (Index i = 0; i < mesh.springs.count; ++i) mesh.springAt[mesh.blocks.seat[i]] = mesh.springs.first + i;
-        }
+        if (mesh.tears) watchTears(mesh);
     }
     for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
+}
+
+/// From now on the kernels watch the lengths of the body's springs.
+void SoftSprings::watchTears(Mesh& mesh)
+{
+    if (mesh.coefficients.empty() || !mesh.tear.empty()) return;
+    mesh.tear.assign(mesh.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
+    mesh.springAt.assign(mesh.tear.size(), kNone);
+    for (Index i = 0; i < mesh.springs.count; ++i) mesh.springAt[mesh.blocks.seat[i]] = mesh.springs.first + i;
 }
 
 void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf)
@@ -99,13 +105,16 @@ void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, st
     angular_.push_back(spring);
 }
 
+/// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
 void SoftSprings::addTo(StiffnessBounds& bounds, const State& state) const
 {
-    for (Index i = 0; i < springCount(); ++i) {
-        if (!alive_[i]) continue;
-        for (Index node : {a_[i], b_[i]}) {
-            bounds.add(node, ks_[i] * state.nodes.invMass[node]);
-            bounds.addDamping(node, kd_[i] * state.nodes.invMass[node]);
+    for (const Mesh& mesh : meshes_) {
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+            if (a_[i] == b_[i]) continue;
+            for (Index node : {a_[i], b_[i]}) {
+                bounds.add(node, stiffnessOf(mesh, i) * state.nodes.invMass[node]);
+                bounds.addDamping(node, dampingOf(mesh, i) * state.nodes.invMass[node]);
+            }
         }
     }
     for (const Angular& spring : angular_) {
@@ -133,11 +142,12 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
     load_.assign(mesh.nodes.count, 0.0);
     for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
         const double inverse = nodes.invMass[a_[i]] + nodes.invMass[b_[i]];
-        stiffness_[i] = ks_[i] * std::min(share(a_[i]), share(b_[i]));
+        const double ks = stiffnessOf(mesh, i);
+        stiffness_[i] = ks * std::min(share(a_[i]), share(b_[i]));
         // The stiffness taken away acts on through its implicit part, h ks v.
-        const double wanted = kd_[i] + h * (ks_[i] - stiffness_[i]);
+        const double wanted = dampingOf(mesh, i) + h * (ks - stiffness_[i]);
         damping_[i] = inverse > 0 ? (1 - decay(h * wanted * inverse)) / (h * inverse) : 0;
-        if (!alive_[i]) continue;
+        if (a_[i] == b_[i]) continue;
         for (Index node : {a_[i], b_[i]}) load_[node - mesh.nodes.first] += h * damping_[i] * nodes.invMass[node];
     }
     for (Index k = 0; k < mesh.nodes.count; ++k) {
@@ -177,9 +187,10 @@ void SoftSprings::fillLanes(Mesh& mesh)
         at[0] = static_cast<float>(rest_[i] + mesh.bias[k]);
         at[soft::kLanes] = alive_[i] ? static_cast<float>(stiffness_[i]) : 0;
         at[2 * soft::kLanes] = alive_[i] ? static_cast<float>(damping_[i]) : 0;
-        if (!mesh.tear.empty())
-            mesh.tear[mesh.blocks.seat[k]] = alive_[i] && tear_[i] > 0 ? static_cast<float>(kTearWatch * tear_[i])
-                                                                       : std::numeric_limits<float>::max();
+        if (mesh.tear.empty()) continue;
+        const double longest = tearLength(mesh, i);
+        mesh.tear[mesh.blocks.seat[k]] =
+            alive_[i] && longest > 0 ? static_cast<float>(kTearWatch * longest) : std::numeric_limits<float>::max();
     }
 }
 
@@ -219,9 +230,9 @@ void SoftSprings::tearIn(const State& state, Mesh& mesh, std::size_t block)
 {
     for (Index lane = 0; lane < soft::kLanes; ++lane) {
         const Index i = mesh.springAt[block * soft::kLanes + lane];
-        if (i == kNone || !alive_[i] || !(tear_[i] > 0)) continue;
+        if (i == kNone || !alive_[i] || !(tearLength(mesh, i) > 0)) continue;
         const double length = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm();
-        if (length > tear_[i]) tear(mesh, i);
+        if (length > tearLength(mesh, i)) tear(mesh, i);
     }
 }
 
@@ -244,7 +255,8 @@ void SoftSprings::pullOneByOne(State& state, const Mesh& mesh)
         const Index a = a_[i], b = b_[i];
         const Vec2 apart = nodes.position[a] - nodes.position[b];
         const double length = std::sqrt(apart.squaredNorm());
-        if (tear_[i] > 0 && length > tear_[i]) {
+        const double longest = tearLength(mesh, i);
+        if (longest > 0 && length > longest) {
             tear(const_cast<Mesh&>(mesh), i);
             continue;
         }
@@ -257,11 +269,55 @@ void SoftSprings::pullOneByOne(State& state, const Mesh& mesh)
     }
 }
 
+void SoftSprings::set(Index body, double ks, double kd, double tearRatio)
+{
+    Mesh& mesh = meshes_[body];
+    mesh.uniform = true;
+    mesh.ks = ks, mesh.kd = kd, mesh.tearRatio = std::max(tearRatio, 0.0);
+    if (mesh.tearRatio > 0) watchTears(mesh);
+}
+
+double SoftSprings::tension(const State& state, Index body, Index spring) const
+{
+    if (!alive_[spring]) return 0;
+    const Nodes& nodes = state.nodes;
+    const Vec2 apart = nodes.position[a_[spring]] - nodes.position[b_[spring]];
+    const double length = apart.norm();
+    if (!(length > 0)) return 0;
+    const double speed = (nodes.velocity[a_[spring]] - nodes.velocity[b_[spring]]).dot(apart) / length;
+    const Mesh& mesh = meshes_[body];
+    return stiffnessOf(mesh, spring) * (length - rest_[spring]) + dampingOf(mesh, spring) * speed;
+}
+
+/// Bingham's body: elastic up to the yield, then the strain beyond it fades at the rate `creep`.
+void SoftSprings::flow(const State& state, double dt)
+{
+    for (Index body = 0; body < meshes_.size(); ++body) {
+        Mesh& mesh = meshes_[body];
+        if (mesh.springs.count == 0 || !(state.bodies[body].matter.yield > 0)) continue;
+        const SoftMatter& matter = state.bodies[body].matter;
+        const double part = 1 - decay(matter.creep * dt);
+        bool flowed = false;
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+            if (!alive_[i] || !(rest_[i] > 0)) continue;
+            const double strain = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm() / rest_[i] - 1;
+            const double beyond = strain - std::clamp(strain, -matter.yield, matter.yield);
+            if (beyond == 0) continue;
+            if (drawn_.empty()) drawn_ = rest_;
+            rest_[i] = std::clamp(rest_[i] * (1 + part * beyond), (1 - matter.mostFlow) * drawn_[i],
+                                  (1 + matter.mostFlow) * drawn_[i]);
+            flowed = true;
+        }
+        if (flowed) fillLanes(mesh);
+    }
+}
+
 void SoftSprings::restored()
 {
     for (std::size_t body = 0; body < meshes_.size(); ++body) {
         Mesh& mesh = meshes_[body];
         torn_[body] = 0;
+        if (mesh.uniform && mesh.tearRatio > 0) watchTears(mesh);
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) torn_[body] += !alive_[i] && a_[i] != b_[i];
         fillLanes(mesh);
     }

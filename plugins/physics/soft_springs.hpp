@@ -15,6 +15,8 @@
 #include "state.hpp"
 #include "stiffness.hpp"
 
+#include <utility>
+
 namespace jet::physics {
 
 class SoftSprings {
@@ -28,6 +30,13 @@ public:
     void addTo(StiffnessBounds&, const State&) const;
     /// Fixes what depends on the length of a substep.
     void prepare(const State&, const StiffnessBounds&, double h);
+
+    /// Replaces the stiffness, damping and tear ratio of all springs of the body, until it is restored to before.
+    void set(Index body, double ks, double kd, double tearRatio);
+    /// What the spring pulls with as the nodes are, in single springs' own stiffness; 0 when torn.
+    double tension(const State&, Index body, Index spring) const;
+    /// Plasticity: lets springs that are strained beyond the yield of their body flow, over a step of dt.
+    void flow(const State&, double dt);
 
     void use(const soft::Kernels& kernels) { kernels_ = &kernels; }
     const soft::Kernels& kernels() const { return *kernels_; }
@@ -46,6 +55,15 @@ public:
     void archive(Archive& with)
     {
         with(alive_);
+        for (Mesh& mesh : meshes_) with(mesh.uniform), with(mesh.ks), with(mesh.kd), with(mesh.tearRatio);
+        auto flowed = static_cast<std::uint8_t>(!drawn_.empty());
+        with(flowed);
+        if (flowed != 0) {
+            if (drawn_.empty()) drawn_ = rest_;
+            with(rest_);
+        } else if (!drawn_.empty()) {
+            rest_ = std::exchange(drawn_, {});
+        }
         for (Angular& spring : angular_) with(spring.angle);
     }
     /// After alive_ was read back.
@@ -69,9 +87,19 @@ private:
         std::vector<float> bias;              // [springs] what single lengths differ by from true ones, as added
         std::vector<std::uint32_t> springAt;  // [blocks * 8] spring of each lane; filled where springs tear
         bool tears = false;
+        bool uniform = false;  // ks, kd and tearRatio stand for those of all its springs
+        double ks = 0, kd = 0, tearRatio = 0;
     };
 
     void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf);
+    double stiffnessOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.ks : ks_[i]; }
+    double dampingOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.kd : kd_[i]; }
+    /// Length at which the spring tears; 0: never.
+    double tearLength(const Mesh& mesh, Index i) const
+    {
+        return (mesh.uniform ? mesh.tearRatio : tear_[i]) * (drawn_.empty() ? rest_[i] : drawn_[i]);
+    }
+    void watchTears(Mesh&);
     void prepareMesh(const State&, const StiffnessBounds&, Mesh&, double h);
     void measureBias(const State&, Mesh&);
     void fillLanes(Mesh&);
@@ -83,7 +111,8 @@ private:
 
     const soft::Kernels* kernels_ = &soft::bestKernels();
     std::vector<Index> a_, b_;                   // nodes
-    std::vector<double> rest_, ks_, kd_, tear_;  // tear_: length, 0 = never
+    std::vector<double> rest_, ks_, kd_, tear_;  // tear_: times the rest length as drawn, 0 = never
+    std::vector<double> drawn_;                  // rest lengths before any flow; empty: none flowed
     std::vector<std::uint8_t> alive_;
     std::vector<double> stiffness_, damping_;  // for the prepared h
     std::vector<Mesh> meshes_;                 // [bodies]; rigid ones have no springs

@@ -78,7 +78,9 @@ struct BodyRecord {
     Index material = 0;
     double gravityScale = 1;
     double mass = 0;
-    double length = 1;  // typical size, scene units: tolerances are fractions of it
+    double length = 1;    // typical size, scene units: tolerances are fractions of it
+    double restArea = 0;  // soft: inside the borders at rest, units²
+    SoftMatter matter;
     double radius = 0;  // rigid: farthest point from the centre, scene units
     Range nodes, points, walls;
     Range springs, angularSprings;  // into SoftSprings

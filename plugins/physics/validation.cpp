@@ -70,6 +70,7 @@ void validate(const SoftBodyDef& def, const WorldSettings& settings)
     if (def.masses.size() != count || (!def.movable.empty() && def.movable.size() != count))
         fail("a soft body of " + std::to_string(count) +
              " particles needs as many masses, and as many movable flags or none.");
+    validate(def.matter);
     for (const Vec2& at : def.particles) requirePlace("a particle's position", at);
     for (double mass : def.masses) {
         requireFinite("a particle's mass", {mass});
@@ -85,6 +86,28 @@ void validate(const SoftBodyDef& def, const WorldSettings& settings)
         requireBelow("an angular spring's particle", std::max({spring.a, spring.centre, spring.b}), count);
         requireSpring("an angular spring", spring.restAngle, spring.ks, spring.kd, 0);
     }
+}
+
+void validate(const SoftMatter& matter)
+{
+    requireFinite(
+        "a soft body's thickness, pressure, area stiffness, yield, creep or flow",
+        {matter.thickness, matter.pressure, matter.areaStiffness, matter.yield, matter.creep, matter.mostFlow});
+    if (matter.thickness < 0 || matter.pressure < 0 || matter.areaStiffness < 0 || matter.yield < 0 || matter.creep < 0)
+        fail("a soft body's thickness, pressure, area stiffness, yield and creep must not be negative.");
+    if (matter.mostFlow < 0 || matter.mostFlow > 0.95)
+        fail("the springs of a soft body may flow by 0 to 0.95 of their length.");
+}
+
+void validate(const ForceFieldDef& def)
+{
+    requireFinite("a field's vector", def.vector);
+    requirePlace("a field's centre", def.centre);
+    requireFinite("a field's strength, reach or drag", {def.strength, def.reach, def.drag});
+    if (def.drag < 0 || (def.kind == ForceFieldDef::Kind::Drag && def.strength < 0))
+        fail("a field's drag must not be negative, or it would give energy without end.");
+    for (const auto& ring : def.region)
+        for (const Vec2& at : ring) requirePlace("a point of a field's region", at);
 }
 
 void validate(const RigidBodyDef& def, const WorldSettings& settings)

@@ -18,6 +18,8 @@ void validate(const BodyCommon&, const WorldSettings&);
 void validate(const SoftBodyDef&, const WorldSettings&);
 void validate(const RigidBodyDef&, const WorldSettings&);
 void validate(const ShapeDef&);
+void validate(const SoftMatter&);
+void validate(const ForceFieldDef&);
 void validate(const Anchor&, std::size_t bodyCount);
 void requireSpring(std::string_view what, double restLength, double ks, double kd, double tearRatio);
 /// Handles and indices that the caller made up.

@@ -86,7 +86,10 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     addBorders(state_, body, rings);
     Box bounds;
     for (const Vec2& at : def.particles) bounds.extend(at);
-    body.length = typicalLength(measureRegion(state_, body), bounds);
+    const Region region = measureRegion(state_, body);
+    body.length = typicalLength(region, bounds);
+    body.restArea = region.area;
+    body.matter = def.matter;
 
     springs_.add(state_, def, handle, nodeOf);
     body.springs.count = static_cast<Index>(def.springs.size());
@@ -202,6 +205,12 @@ ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
     physics::validate(def.at, bodyCount());
     requireFinite("a torque", {def.value});
     return actuators_.add(state_, def);
+}
+
+ActuatorHandle World::addForceField(const ForceFieldDef& def)
+{
+    physics::validate(def);
+    return fields_.add(def);
 }
 
 ActuatorHandle World::addForce(const ForceActuatorDef& def)

@@ -4,6 +4,7 @@
 #include "actuators.hpp"
 #include "contact_finder.hpp"
 #include "contact_solver.hpp"
+#include "force_fields.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
 #include "soft_springs.hpp"
@@ -21,6 +22,8 @@ public:
     ActuatorHandle addAngularSpring(const AngularSpringActuatorDef&) override;
     ActuatorHandle addTorque(const TorqueActuatorDef&) override;
     ActuatorHandle addForce(const ForceActuatorDef&) override;
+
+    ActuatorHandle addForceField(const ForceFieldDef&) override;
 
     void step(double dt) override;
 
@@ -40,6 +43,11 @@ public:
     void setPosition(BodyHandle body, const Vec2& centre) override;
     void setGravity(const Vec2& gravity) override;
 
+    void setForceField(ActuatorHandle field, const ForceFieldDef&) override;
+    void setSoftMatter(BodyHandle body, const SoftMatter&) override;
+    void setSprings(BodyHandle body, double ks, double kd, double tearRatio) override;
+    void setPinned(BodyHandle body, std::uint32_t particle, bool pinned) override;
+    double springTension(BodyHandle body, std::uint32_t index) const override;
     bool springAlive(BodyHandle body, std::uint32_t index) const override;
 
     JointHandle addJoint(const JointDef&) override;
@@ -62,6 +70,7 @@ private:
     void addPoint(Index node, const Vec2& local, const Vec2& position);
     BodyHandle finishBody(const BodyCommon&);
     void setRigidMass(BodyRecord&, const RigidBodyDef&);
+    BodyRecord& softBody(BodyHandle);
 
     void prepareStiffness();
     void substep(double h, int index, int count);
@@ -79,6 +88,26 @@ private:
     void report();
     void reportContact(const ContactPoint&);
 
+    /// Bodies may have been added since.
+    void keepFreeInverse()
+    {
+        const auto& inverse = state_.nodes.invMass;
+        freeInverse_.insert(freeInverse_.end(), inverse.begin() + static_cast<std::ptrdiff_t>(freeInverse_.size()),
+                            inverse.end());
+    }
+    template <class Archive>
+    void archivePins(Archive& with)
+    {
+        auto pinned = static_cast<std::uint8_t>(!freeInverse_.empty());
+        with(pinned);
+        if (pinned != 0) {
+            keepFreeInverse();
+            with(state_.nodes.invMass);
+        } else if (!freeInverse_.empty()) {
+            keepFreeInverse();
+            state_.nodes.invMass = std::exchange(freeInverse_, {});
+        }
+    }
     template <class Self, class Archive>
     static void archive(Self& self, Archive& with);
 
@@ -87,6 +116,8 @@ private:
     SoftSprings springs_;
     ShapeMemory shapes_;
     Actuators actuators_;
+    ForceFields fields_;
+    std::vector<double> freeInverse_;  // [nodes] inverse masses without pins; empty: no pin was ever set or drawn
     ContactFinder finder_;
     ContactSet contacts_;
     RigidStage rigid_;

@@ -141,6 +141,13 @@ void World::archive(Self& self, Archive& with)
     self.springs_.archive(with);
     self.shapes_.archive(with);
     self.actuators_.archive(with);
+    self.fields_.archive(with);
+    for (BodyRecord& body : self.state_.bodies) {
+        SoftMatter& matter = body.matter;
+        with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
+        with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
+    }
+    self.archivePins(with);
     with(self.stepForces_);
     with(self.settings_.gravity);
     with.list(self.contacts_.points, [&](ContactPoint& c) {
@@ -176,6 +183,8 @@ void World::restore(std::span<const std::byte> bytes)
         for (const ContactPoint& c : contacts_.points)
             if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
         springs_.restored();
+        fields_.restored();
+        rate_ = -1;
         pushed_ = true;
     };
     try {

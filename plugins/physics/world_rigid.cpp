@@ -13,6 +13,7 @@ void World::stepSimple(double dt)
     state_.nodes.force = stepForces_;
     std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
     if (actuators_.any()) actuators_.addForces(state_);
+    if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
     rigid_.step(state_, settings_, dt, stats_);
     limitVelocities(state_);
     std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));

@@ -1,6 +1,7 @@
 // A step: forces, then substeps of (velocities, springs, contacts, positions), then what the step shows.
 #include "contact_solver.hpp"
 #include "integrator.hpp"
+#include "soft/enclosed_area.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -74,6 +75,7 @@ void World::step(double dt)
     }
     if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
     pushed_ = false;
+    springs_.flow(state_, dt);
     updatePoints(state_);
     updateReadings(state_);
     report();
@@ -99,10 +101,12 @@ void World::substep(double h, int index, int count)
         if (pushed_)
             for (Index n = 0; n < state_.nodes.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);
+        if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
         springs_.addForces(state_, h);
         integrateVelocities(state_, settings_, springs_.kernels(), h);
         const bool backwards = index % 2 == 1;
         springs_.applyAngular(state_, h, backwards);
+        soft::applyPressure(state_, h);
         if (index == 0) shapes_.look(state_, count * h);
         shapes_.apply(state_, springs_, h);
         actuators_.applySprings(state_, h, backwards);
@@ -144,12 +148,13 @@ void World::reportContact(const ContactPoint& c)
     const Vec2& at = points.position[c.point];
     const Vec2 normal = perpendicular(edge) * (state_.walls.outward[c.wall] / std::sqrt(squared));
     const double separation = (at - first).dot(normal), along = (at - first).dot(edge) / squared;
-    const bool onWall = (c.inside || (along >= 0 && along <= 1)) && separation <= c.slop &&
+    const bool onWall = (c.inside || (along >= 0 && along <= 1)) && separation <= c.slop + c.thickness &&
                         (c.inside || c.engaged || separation >= -kTouchDepth * c.slop);
     if (!(c.stepImpulse > 0) && !onWall) return;
     reports_.push_back({c.bodyA, c.bodyB, c.point - state_.bodies[c.bodyA].points.first,
                         state_.walls.first[c.wall] - state_.bodies[c.bodyB].points.first, at,
-                        std::clamp(along, 0.0, 1.0), normal, -separation, c.stepImpulse});
+                        std::clamp(along, 0.0, 1.0), normal, c.thickness - separation, c.stepImpulse});
+    if (c.bodyA == c.bodyB) return;
     touching_.push_back((static_cast<std::uint64_t>(std::min(c.bodyA, c.bodyB)) << 32) | std::max(c.bodyA, c.bodyB));
 }
 
