@@ -1,0 +1,236 @@
+// Queries against brute force over discs and boxes, whose answers geometry tells.
+#include "lab.hpp"
+
+#include <cstdio>
+#include <optional>
+
+namespace jet::conformance {
+
+namespace {
+
+/// Fixed discs and turned boxes, none of which overlap.
+struct Yard {
+    struct Thing {
+        bool disc = false;
+        Vec2 at;
+        double radius = 0, angle = 0;
+        Vec2 half{0, 0};
+
+        /// Distance to the outline; below 0 inside. (Boxes: exact outside, and the depth inside.)
+        double distance(const Vec2& p) const
+        {
+            if (disc) return (p - at).norm() - radius;
+            const Vec2 local = Affine::rotation(-angle) * Vec2(p - at);
+            const Vec2 q = local.cwiseAbs() - half;
+            return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+        }
+        Box bounds() const
+        {
+            Box box;
+            if (disc) return Box(at - Vec2(radius, radius), at + Vec2(radius, radius));
+            for (const Vec2& p : boxRing(at, 2 * half.x(), 2 * half.y(), angle)) box.extend(p);
+            return box;
+        }
+    };
+
+    explicit Yard(const Lab& lab) : world(lab.world({0, 0}))
+    {
+        for (int row = 0; row < 8; ++row)
+            for (int column = 0; column < 8; ++column) {
+                Thing thing;
+                thing.disc = (row + column) % 2 == 0;
+                thing.at = Vec2(60 * column, 60 * row) + Vec2(number(-8, 8), number(-8, 8));
+                thing.radius = number(5, 18), thing.angle = number(0, 3);
+                thing.half = {number(4, 14), number(4, 14)};
+                RigidBodyDef def = thing.disc ? disc(thing.at, thing.radius)
+                                              : box(thing.at, 2 * thing.half.x(), 2 * thing.half.y(), 1, thing.angle);
+                if (thing.disc) def.common.layer = 2;
+                def.common.fixed = column % 3 != 0;
+                world->addRigidBody(def);
+                things.push_back(thing);
+            }
+        world->step(kStep);
+    }
+
+    /// First contact of a disc of this radius on its way, by sphere tracing: exact to 1e-9.
+    std::optional<std::pair<BodyHandle, double>> sweep(const Vec2& from, const Vec2& to, double radius) const
+    {
+        const double length = (to - from).norm();
+        std::optional<std::pair<BodyHandle, double>> best;
+        for (BodyHandle i = 0; i < things.size(); ++i) {
+            double t = 0;
+            for (int k = 0; k < 4000 && t <= length; ++k) {
+                const double d = things[i].distance(from + t / length * (to - from)) - radius;
+                if (d < 1e-9) {
+                    if (!best || t / length < best->second) best = {i, t / length};
+                    break;
+                }
+                t += d;
+            }
+        }
+        return best;
+    }
+    double closest(BodyHandle thing, const Vec2& from, const Vec2& to) const
+    {
+        double least = 1e9;
+        for (int k = 0; k <= 2000; ++k)
+            least = std::min(least, things[thing].distance(from + k / 2000.0 * (to - from)));
+        return least;
+    }
+    double least(const Vec2& p) const
+    {
+        double d = 1e9;
+        for (const Thing& thing : things) d = std::min(d, thing.distance(p));
+        return d;
+    }
+
+    mutable Numbers number;
+    std::vector<Thing> things;
+    std::unique_ptr<PhysicsWorld> world;
+};
+
+template <class Cast>
+Outcome compareCasts(const Yard& yard, double radius, Cast cast)
+{
+    int wrong = 0, hits = 0;
+    double off = 0;
+    std::string first;
+    const auto isWrong = [&](const std::string& what, const Vec2& from, const Vec2& to) {
+        ++wrong;
+        if (!first.empty()) return;
+        char text[120];
+        std::snprintf(text, sizeof text, "%s from (%.3f, %.3f) to (%.3f, %.3f)", what.c_str(), from.x(), from.y(),
+                      to.x(), to.y());
+        first = text;
+    };
+    for (int i = 0; i < 400; ++i) {
+        const Vec2 from(yard.number(-60, 480), yard.number(-60, 480)), to(yard.number(-60, 480), yard.number(-60, 480));
+        if (yard.least(from) < radius + 0.5) continue;
+        const auto should = yard.sweep(from, to, radius);
+        const std::optional<CastHit> is = cast(from, to);
+        if (should.has_value() != is.has_value()) {
+            // A graze may go either way.
+            double closest = 1e9;
+            for (int k = 0; k <= 1000; ++k) closest = std::min(closest, yard.least(from + k / 1000.0 * (to - from)));
+            if (std::abs(closest - radius) > 0.3) isWrong(should ? "missed" : "hit nothing there", from, to);
+            continue;
+        }
+        if (!should) continue;
+        ++hits;
+        const double apart = std::abs(is->fraction - should->second) * (to - from).norm();
+        // A graze of the nearer one may go either way.
+        const BodyHandle nearer = is->fraction < should->second ? is->body : should->first;
+        if (is->body != should->first && apart > 0.3 && std::abs(yard.closest(nearer, from, to) - radius) > 0.3)
+            isWrong("another body", from, to);
+        if (is->body != should->first) continue;
+        // Across the surface: along a graze a hair's breadth is far.
+        const Vec2 there = from + is->fraction * (to - from);
+        off = std::max(off, std::abs(yard.things[is->body].distance(there) - radius));
+        if (is->normal.dot(to - from) >= 0 || std::abs(is->normal.norm() - 1) > 1e-3) isWrong("wrong normal", from, to);
+    }
+    if (hits < 100) return holds(false, "only " + std::to_string(hits) + " hits");
+    if (wrong > 0) return measured(wrong, "of " + std::to_string(hits) + " wrong", 0, first);
+    return measured(off, "units", 0.25, std::to_string(hits) + " hits");
+}
+
+Outcome rays(const Lab& lab)
+{
+    const Yard yard(lab);
+    const auto any = yard.world->rayCast({-100, 0}, {600, 0});
+    if (!any) return {Outcome::Verdict::Missing, 0, 0, {}, "a ray through bodies finds nothing"};
+    return compareCasts(yard, 0, [&](const Vec2& from, const Vec2& to) { return yard.world->rayCast(from, to); });
+}
+
+Outcome casts(const Lab& lab)
+{
+    const Yard yard(lab);
+    const auto cast = [&](const Vec2& from, const Vec2& to) {
+        return yard.world->shapeCast({ShapeDef::Kind::Circle, {from}, 4}, to - from);
+    };
+    if (!cast({-100, 0}, {600, 0})) return {Outcome::Verdict::Missing, 0, 0, {}, "a cast disc finds nothing"};
+    return compareCasts(yard, 4, cast);
+}
+
+Outcome boxes(const Lab& lab)
+{
+    const Yard yard(lab);
+    int wrong = 0, found = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Vec2 from(yard.number(-60, 480), yard.number(-60, 480));
+        const Box area(from, from + Vec2(yard.number(2, 80), yard.number(2, 80)));
+        const std::vector<BodyHandle> is = yard.world->overlapping(area);
+        found += static_cast<int>(is.size());
+        for (BodyHandle b = 0; b < yard.things.size(); ++b) {
+            // The distance of the thing to the box, by points of both that are dense enough.
+            double least = 1e9;
+            for (int x = 0; x <= 24; ++x)
+                for (int y = 0; y <= 24; ++y)
+                    least =
+                        std::min(least, yard.things[b].distance(area.min + area.size().cwiseProduct(Vec2(x, y) / 24)));
+            const bool listed = std::binary_search(is.begin(), is.end(), b);
+            if (std::abs(least) > 2.5 && listed != (least < 0)) ++wrong;
+        }
+    }
+    if (found == 0) return {Outcome::Verdict::Missing, 0, 0, {}, "a box over bodies finds nothing"};
+    return measured(wrong, "wrong answers", 0, std::to_string(found) + " found");
+}
+
+Outcome nearest(const Lab& lab)
+{
+    const Yard yard(lab);
+    double off = 0;
+    int found = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Vec2 p(yard.number(-60, 480), yard.number(-60, 480));
+        const double should = yard.least(p);
+        if (should < 0.2) continue;
+        const auto is = yard.world->nearest(p, 40);
+        if (std::abs(should - 40) < 0.5) continue;
+        if (is.has_value() != (should <= 40))
+            return holds(false, is ? "finds something where nothing is near" : "finds nothing where something is near");
+        if (!is) continue;
+        ++found;
+        off = std::max({off, std::abs(is->fraction * 40 - should), std::abs((is->point - p).norm() - should)});
+    }
+    return measured(off, "units", 0.25, std::to_string(found) + " found");
+}
+
+Outcome filter(const Lab& lab)
+{
+    const auto world = lab.world({0, 0});
+    RigidBodyDef first = fixed(disc({50, 0}, 5)), sensor = fixed(disc({100, 0}, 5));
+    first.common.layer = 2, sensor.common.sensor = true;
+    const BodyHandle a = world->addRigidBody(first), b = world->addRigidBody(sensor);
+    const BodyHandle c = world->addRigidBody(fixed(disc({150, 0}, 5)));
+    world->step(kStep);
+    const auto ray = [&](const QueryFilter& f) {
+        const auto hit = world->rayCast({0, 0}, {200, 0}, f);
+        return hit ? hit->body : kNoHandle;
+    };
+    if (ray({}) == kNoHandle) return {Outcome::Verdict::Missing, 0, 0, {}, "no ray casts"};
+    return holds(ray({}) == a && ray({1, kNoHandle, false}) == c && ray({1, kNoHandle, true}) == b &&
+                     ray({~0U, a, false}) == c,
+                 "layers, the excepted body or sensors are not heeded");
+}
+
+Outcome contains(const Lab& lab)
+{
+    const auto world = lab.world({0, 0});
+    const BodyHandle ring = world->addRigidBody(drawn({circleRing({0, 0}, 30, 24), circleRing({0, 0}, 10, 24)}));
+    const BodyHandle round = world->addRigidBody(disc({100, 0}, 10));
+    world->step(kStep);
+    return holds(world->contains(ring, {20, 0}) && !world->contains(ring, {0, 0}) && !world->contains(ring, {40, 0}) &&
+                     world->contains(round, {106, 6}) && !world->contains(round, {108, 8}),
+                 "a ring with a hole, or a disc, does not contain what it should");
+}
+
+}  // namespace
+
+std::vector<Check> queryChecks()
+{
+    return {{"queries", "ray casts", rays},          {"queries", "shape casts", casts},
+            {"queries", "overlapping a box", boxes}, {"queries", "nearest point", nearest},
+            {"queries", "filters", filter},          {"queries", "containing a point", contains}};
+}
+
+}  // namespace jet::conformance

@@ -1,0 +1,220 @@
+// Determinism, snapshots, and what must never get in or out: numbers that are none.
+#include "lab.hpp"
+
+#include <limits>
+
+namespace jet::conformance {
+
+namespace {
+
+/// A bit of everything rigid: a pile, joints, springs, things that move by themselves.
+std::unique_ptr<PhysicsWorld> scene(const Lab& lab, int threads = 1)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 98.1};
+    settings.threads = threads;
+    settings.materials = {MaterialPair{0.5, 0.2, true}};
+    auto world = lab.world(settings);
+    world->addRigidBody(ground(0));
+    BodyHandle last = kNoHandle;
+    for (int i = 0; i < 60; ++i) {
+        const Vec2 place(30 * (i % 6) + 3 * (i % 4), -15.0 - 25 * (i / 6));
+        last = world->addRigidBody(i % 3 == 0 ? disc(place, 9) : box(place, 18, 16, 1 + i % 4, 0.1 * i));
+    }
+    world->addSpring({background({-40, -120}), on(last, at(*world, last)), -1, 20, 0.5, 0});
+    try {
+        const BodyHandle bob = world->addRigidBody(disc({-60, -80}, 8, 3));
+        world->addJoint(joint(JointDef::Kind::Revolute, background({-60, -120}), on(bob, {-60, -120})));
+    } catch (const Failure&) {  // then without joints
+    }
+    return world;
+}
+
+Outcome twoRuns(const Lab& lab)
+{
+    const auto a = scene(lab), b = scene(lab);
+    for (int i = 0; i < 300; ++i) {
+        a->step(kStep), b->step(kStep);
+        if (a->hash() != b->hash()) return holds(false, "runs differ from step " + std::to_string(i + 1));
+    }
+    return holds(true, {});
+}
+
+Outcome threads(const Lab& lab)
+{
+    const auto one = scene(lab, 1);
+    run(*one, 3);
+    for (const int count : {2, 4}) {
+        const auto many = scene(lab, count);
+        run(*many, 3);
+        if (many->hash() != one->hash()) return holds(false, std::to_string(count) + " threads give other bits");
+    }
+    return holds(true, {});
+}
+
+Outcome continuing(const Lab& lab, bool otherWorld)
+{
+    const auto world = scene(lab);
+    run(*world, 1);
+    const std::vector<std::byte> state = world->save();
+    const std::uint64_t saved = world->hash();
+    run(*world, 2);
+    const std::uint64_t end = world->hash();
+    const auto other = otherWorld ? scene(lab) : nullptr;
+    PhysicsWorld& again = other ? *other : *world;
+    again.restore(state);
+    if (again.hash() != saved) return holds(false, "the restored state is not the saved one");
+    run(again, 2);
+    if (again.hash() != end) return holds(false, "the future after restoring is another one");
+    return {Outcome::Verdict::Supported, 0, 0, {}, std::to_string(state.size()) + " bytes for 62 bodies"};
+}
+
+Outcome foreign(const Lab& lab)
+{
+    const auto world = scene(lab);
+    run(*world, 0.5);
+    const std::uint64_t before = world->hash();
+    std::vector<std::byte> state = world->save();
+    int accepted = 0;
+    const auto attempt = [&](std::span<const std::byte> bytes) {
+        try {
+            world->restore(bytes);
+            ++accepted;
+        } catch (const Failure&) {
+        }
+    };
+    attempt({});
+    attempt(std::vector<std::byte>(1000, std::byte{0x5a}));
+    attempt(std::span(state).first(state.size() - 3));
+    if (world->hash() != before) return holds(false, "a refused state changed the world");
+    return measured(accepted, "broken states of 3 taken", 0);
+}
+
+Outcome oneBit(const Lab& lab)
+{
+    const auto a = scene(lab), b = scene(lab);
+    b->applyImpulse(5, {1e-3, 0});
+    a->step(kStep), b->step(kStep);
+    return holds(a->hash() != b->hash(), "the hash does not see a small push");
+}
+
+Outcome poison(const Lab& lab)
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    const auto world = scene(lab);
+    const auto torque = world->addTorque({on(1, {0, -15}), 0});
+    const auto force = world->addForce({on(1, {0, -15}), {0, 0}});
+    const std::vector<std::pair<std::string, std::function<void()>>> attempts{
+        {"velocity",
+         [&] {
+             world->setVelocity(1, {nan, 0});
+         }},
+        {"spin", [&] { world->setOmega(1, nan); }},
+        {"position",
+         [&] {
+             world->setPosition(1, {0, infinite});
+         }},
+        {"gravity",
+         [&] {
+             world->setGravity({nan, 1});
+         }},
+        {"torque", [&] { world->setTorque(torque, infinite); }},
+        {"force",
+         [&] {
+             world->setForce(force, {nan, nan});
+         }},
+        {"applied force",
+         [&] {
+             world->applyForce(1, {infinite, 0});
+         }},
+        {"impulse",
+         [&] {
+             world->applyImpulse(1, {0, nan});
+         }},
+        {"mass",
+         [&] {
+             world->addRigidBody(disc({500, 0}, 5, nan));
+         }},
+        {"no mass",
+         [&] {
+             world->addRigidBody(disc({500, 0}, 5, 0));
+         }},
+        {"radius",
+         [&] {
+             world->addRigidBody(disc({500, 0}, nan));
+         }},
+        {"point",
+         [&] {
+             world->addRigidBody(drawn({{{500, 0}, {510, 0}, {nan, 10}}}));
+         }},
+        {"initial velocity",
+         [&] {
+             world->addRigidBody(moving(disc({500, 0}, 5), {nan, 0}));
+         }},
+        {"material",
+         [&] {
+             RigidBodyDef def = disc({500, 0}, 5);
+             def.common.material = 99;
+             world->addRigidBody(def);
+         }},
+        {"spring",
+         [&] {
+             world->addSpring({background({0, 0}), on(1, {0, 0}), -1, nan, 0, 0});
+         }},
+        {"stiffness below 0",
+         [&] {
+             world->addSpring({background({0, 0}), on(1, {0, 0}), -1, -5, 0, 0});
+         }},
+        {"body of an anchor",
+         [&] {
+             world->addTorque({on(12345, {0, 0}), 1});
+         }},
+        {"body",
+         [&] {
+             world->setVelocity(12345, {0, 0});
+         }},
+    };
+    std::string taken, silent;
+    for (const auto& [name, attempt] : attempts) {
+        try {
+            attempt();
+            taken += (taken.empty() ? "" : ", ") + name;
+        } catch (const Failure& failure) {
+            if (failure.error().message.size() < 15) silent += (silent.empty() ? "" : ", ") + name;
+        }
+    }
+    if (!taken.empty()) return holds(false, "taken: " + taken);
+    if (!silent.empty()) return holds(false, "refused without a sentence: " + silent);
+    run(*world, 1);
+    for (const Vec2& p : world->bodies().points)
+        if (!isFinite(p)) return holds(false, "a number that is none came out");
+    return {Outcome::Verdict::Supported, 0, 0, {}, std::to_string(attempts.size()) + " poisoned inputs refused"};
+}
+
+Outcome absurd(const Lab& lab)
+{
+    const auto world = scene(lab);
+    for (int i = 0; i < 120; ++i) {
+        world->applyForce(static_cast<BodyHandle>(1 + i % 60), Vec2(i % 2 ? 1e9 : -1e9, 1e9));
+        world->step(kStep);
+    }
+    for (const Vec2& p : world->bodies().points)
+        if (!isFinite(p)) return holds(false, "forces of 10⁹ gave a number that is none");
+    return holds(true, {});
+}
+
+}  // namespace
+
+std::vector<Check> stateChecks()
+{
+    return {{"state", "two runs, the same bits", twoRuns},
+            {"state", "1, 2, 4 threads, the same bits", threads},
+            {"state", "the hash sees a small push", oneBit},
+            {"state", "a snapshot goes on bit-equal", [](const Lab& lab) { return continuing(lab, false); }},
+            {"state", "a snapshot in an equal world", [](const Lab& lab) { return continuing(lab, true); }},
+            {"state", "broken snapshots are refused", foreign},
+            {"state", "poisoned inputs are refused", poison},
+            {"state", "absurd forces stay finite", absurd}};
+}
+
+}  // namespace jet::conformance
