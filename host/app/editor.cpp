@@ -89,11 +89,6 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
             "error: there is no display for the editor; 'jet play PROJECT' plays without one (see 'jet --help')\n");
         return kFailed;
     }
-    std::error_code ignored;
-    if (!project.empty() && !std::filesystem::exists(project, ignored)) {
-        std::fprintf(stderr, "%s: error: there is no such project; 'jet project new DIR' makes one\n", project.c_str());
-        return kFailed;
-    }
     std::string problem;
     const JetRunWindow run = loadWindow(problem);
     if (!run) {

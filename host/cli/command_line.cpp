@@ -4,6 +4,8 @@
 #include "plugin_new_command.hpp"
 #include "recovery_commands.hpp"
 
+#include "host/plugins/suggest.hpp"
+
 #include <jet/version.hpp>
 
 #include <CLI/CLI.hpp>
@@ -142,6 +144,20 @@ int run(const Parsed& parsed, Session& session)
     return kFailed;
 }
 
+/// A word that is no command is the project to edit, if there is one of that name.
+std::optional<int> editorProject(const CLI::App& app, const std::filesystem::path& project)
+{
+    std::error_code ignored;
+    if (project.empty() || std::filesystem::exists(project, ignored)) return std::nullopt;
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    const std::string nearest = nearestWord(project.string(), commands);
+    const std::string hint = nearest.empty() ? "'jet project new DIR' makes one, and 'jet --help' lists the commands"
+                                             : "did you mean the command '" + nearest + "'?";
+    std::fprintf(stderr, "%s: error: there is no such project; %s\n", project.c_str(), hint.c_str());
+    return kFailed;
+}
+
 }  // namespace
 
 std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, std::filesystem::path& project)
@@ -165,7 +181,7 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
         return app.exit(problem) == 0 ? kOk : kUsage;
     }
     global.pluginPath.insert(global.pluginPath.end(), global.watch.begin(), global.watch.end());
-    if (!parsed.run) return std::nullopt;
+    if (!parsed.run) return editorProject(app, project);
     if (!global.watch.empty()) {
         std::fprintf(stderr, "error: --watch is for the editor; leave it out, or use --plugin-path\n");
         return kUsage;

@@ -37,6 +37,9 @@ SettingsDialog::SettingsDialog(Editor& editor, QWidget* parent)
     list_->setMaximumWidth(200);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close | QDialogButtonBox::RestoreDefaults, this);
     defaults_ = buttons->button(QDialogButtonBox::RestoreDefaults);
+    // Return ends the editing of a field; it must not press a button as well.
+    for (QAbstractButton* button : buttons->buttons())
+        if (auto* push = qobject_cast<QPushButton*>(button)) push->setAutoDefault(false);
     connect(defaults_, &QPushButton::clicked, this, &SettingsDialog::restoreDefaults);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     auto* middle = new QHBoxLayout;

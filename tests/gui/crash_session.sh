@@ -10,20 +10,17 @@ jet=$1
 out=$2
 plugin=$3
 
-for program in xvfb-run xdotool openbox; do
+for program in Xvfb xdotool openbox; do
     command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
 if [ "${JET_SESSION_DISPLAY:-}" = "" ]; then
-    JET_SESSION_DISPLAY=1 exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
+    JET_SESSION_DISPLAY=1 exec "$(dirname "$0")/../../scripts/with-display" --manager openbox "$0" "$@"
 fi
 
 rm -rf "$out"
 mkdir -p "$out"
 export XDG_CONFIG_HOME=$out/settings XDG_STATE_HOME=$out/state XDG_DATA_HOME=$out/data QT_QPA_PLATFORM=xcb
 failures=0
-openbox >/dev/null 2>&1 &
-manager=$!
-trap 'kill $manager 2>/dev/null' EXIT
 
 check() { local what=$1; shift; if "$@"; then echo "ok: $what"; else echo "FAILED: $what"; failures=$((failures + 1)); fi; }
 shot() { command -v import >/dev/null && import -window root "$out/$1.png"; }
@@ -35,7 +32,7 @@ start() {
 # The window of the running editor with that name.
 find_window() {
     for _ in $(seq 150); do
-        window=$(xdotool search --onlyvisible --pid "$editor" --name "$1" 2>/dev/null | head -1)
+        window=$(xdotool search --all --onlyvisible --pid "$editor" --name "$1" 2>/dev/null | head -1)
         [ -n "$window" ] && return 0
         kill -0 "$editor" 2>/dev/null || return 1
         sleep 0.2

@@ -9,11 +9,11 @@ jet=$1
 out=$2
 example=${3:-}
 
-for program in xvfb-run xdotool openbox import; do
+for program in Xvfb xdotool openbox import; do
     command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
 done
 if [ "${JET_SESSION_DISPLAY:-}" = "" ]; then
-    JET_SESSION_DISPLAY=1 exec xvfb-run -a -s "-screen 0 1440x900x24" "$0" "$@"
+    JET_SESSION_DISPLAY=1 exec "$(dirname "$0")/../../scripts/with-display" --manager openbox "$0" "$@"
 fi
 
 rm -rf "$out"
@@ -34,7 +34,7 @@ start() {
     "$jet" "$@" >"$out/editor.log" 2>&1 &
     editor=$!
     for _ in $(seq 100); do
-        window=$(xdotool search --onlyvisible --pid "$editor" --name JET 2>/dev/null | head -1)
+        window=$(xdotool search --all --onlyvisible --pid "$editor" --name JET 2>/dev/null | head -1)
         [ -n "$window" ] && break
         kill -0 "$editor" 2>/dev/null || { fail "the editor did not start: $(cat "$out/editor.log")"; exit 1; }
         sleep 0.2
@@ -69,9 +69,6 @@ save() { key ctrl+s; settle 0.4; }
 # All files of the project but the hidden ones (backups, the lock), names and bytes.
 content() { (cd "$project" && find . -type f -not -path '*/.*' -print0 | sort -z | xargs -0 sha256sum) | sha256sum; }
 
-openbox >/dev/null 2>&1 &
-manager=$!
-trap 'kill $manager 2>/dev/null' EXIT
 settle
 
 "$jet" project new "$project" || { fail "jet project new"; exit 1; }

@@ -182,7 +182,7 @@ TEST_F(PluginsInTheWindowTest, AProjectsOwnPluginsComeInBeforeItIsRead)
 
 // --- settings
 
-TEST_F(PluginsInTheWindowTest, DISABLED_TheSettingsDialogIsMadeFromTheTableAndStoresWhatIsTyped)
+TEST_F(PluginsInTheWindowTest, TheSettingsDialogIsMadeFromTheTableAndStoresWhatIsTyped)
 {
     start();
     host::SettingsDialog dialog(window(), &window());

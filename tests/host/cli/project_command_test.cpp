@@ -24,6 +24,14 @@ TEST_F(ProjectCommandTest, ANewProjectIsFineAndNamedAfterItsFolder)
     EXPECT_EQ(files(), before);
 }
 
+TEST_F(ProjectCommandTest, AWordThatIsNoCommandIsAProjectThatMustExist)
+{
+    const Outcome slip = jet("plya");
+    EXPECT_EQ(slip.code, 1);
+    EXPECT_EQ(slip.err, "plya: error: there is no such project; did you mean the command 'play'?\n");
+    EXPECT_THAT(jet("games/none").err, HasSubstr("games/none: error: there is no such project; 'jet project new DIR'"));
+}
+
 TEST_F(ProjectCommandTest, CheckNamesFileLineAndColumn)
 {
     writeGame();
