@@ -148,7 +148,8 @@ void addCheckCommands(CLI::App& plugins, std::function<int(Session&)>& run)
         ->type_name("DIR");
     checking->add_option("--only", command->run.only, "Run this test only: its name, with or without :ID; may repeat")
         ->type_name("TEST")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     checking->add_option("--seed", command->run.seed, "Seed of all that is random")
         ->type_name("N")
         ->capture_default_str();

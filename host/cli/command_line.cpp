@@ -20,8 +20,14 @@ void addGlobal(CLI::App& app, GlobalOptions& global)
 {
     app.add_option("--plugins", global.set, "Plugin set to use: a .jetset file or the name of a shipped set")
         ->type_name("SET");
-    app.add_option("--plugin-path", global.pluginPath, "Folder of further plugins")->type_name("DIR")->take_all();
-    app.add_option("--without", global.without, "As if this plugin were not installed")->type_name("ID")->take_all();
+    app.add_option("--plugin-path", global.pluginPath, "Folder of further plugins")
+        ->type_name("DIR")
+        ->take_all()
+        ->allow_extra_args(false);
+    app.add_option("--without", global.without, "As if this plugin were not installed")
+        ->type_name("ID")
+        ->take_all()
+        ->allow_extra_args(false);
     app.add_flag("--safe-mode", global.safeMode, "Only the plugins that ship with JET");
     app.add_flag("--trust", global.trust, "Trust the plugins that come with the project, from now on");
     app.add_flag("--json", global.json, "Print for a machine");
@@ -77,8 +83,11 @@ void addConvert(CLI::App& app, Parsed& parsed)
     convert->add_option("--background", o.background, "Background of a picture, e.g. white or #ffffff")
         ->type_name("COLOUR");
     convert->add_option("--apply", o.effects, "Put an effect on every shape: EFFECT or EFFECT:property=value,...")
-        ->take_all();
-    convert->add_option("--set", o.properties, "Set a property on every item that has it: property=value")->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
+    convert->add_option("--set", o.properties, "Set a property on every item that has it: property=value")
+        ->take_all()
+        ->allow_extra_args(false);
     convert->callback([&parsed] {
         parsed.convert.output = parsed.convert.inputs.back();
         parsed.convert.inputs.pop_back();
@@ -174,7 +183,8 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
     app.add_option("project", project, "Project to open in the editor")->type_name("PROJECT");
     app.add_option("--watch", global.watch, "In the editor: folder of further plugins, reloaded when they are rebuilt")
         ->type_name("DIR")
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

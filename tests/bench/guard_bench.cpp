@@ -1,5 +1,5 @@
 // What the guard costs: a call of a plugin's effect and of its tool through the guard, beside the plain virtual call,
-// and a storm of 10,000 events to 50 listeners whose code is in plugins.
+// a storm of 10,000 events to 50 listeners whose code is in plugins, and loading a plugin beside dlopen alone.
 #include "bench/summary.hpp"
 
 #include "host/plugins/plugin_manager.hpp"
@@ -11,6 +11,7 @@
 
 #include <test_paths.hpp>
 
+#include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -25,20 +26,24 @@ constexpr int kListeners = 50, kEvents = 10'000;
 /// The fixture plugin under as many ids as are wanted.
 class Plugins {
 public:
-    explicit Plugins(int count)
+    explicit Plugins(int count, bool ownFiles = false)
     {
-        folder_ = fs::temp_directory_path() / ("jet-guard-bench-" + std::to_string(getpid()));
+        folder_ = fs::temp_directory_path() /
+                  ("jet-guard-bench-" + std::to_string(getpid()) + (ownFiles ? "-own-" + std::to_string(++made_) : ""));
         const fs::path source = fs::path(JET_BINARY_DIR) / "tests/plugins/org.jet.test.bench";
         std::ifstream in(source / "plugin.json");
         std::stringstream text;
         text << in.rdbuf();
         host::PluginOptions options;
-        options.copyLibraries = true;  // one library under one path would be loaded once
+        options.copyLibraries = !ownFiles;  // one library under one path would be loaded once
         for (int i = 0; i < count; ++i) {
             const std::string number = std::to_string(i);
             const fs::path folder = folder_ / number;
             fs::create_directories(folder);
-            fs::create_symlink(source / "fixture-bench.so", folder / "fixture-bench.so");
+            if (ownFiles)
+                fs::copy_file(source / "fixture-bench.so", folder / "fixture-bench.so");
+            else
+                fs::create_symlink(source / "fixture-bench.so", folder / "fixture-bench.so");
             std::string manifest = text.str();
             const auto replaceAll = [&](const std::string& from, const std::string& to) {
                 for (auto at = manifest.find(from); at != std::string::npos; at = manifest.find(from, at + to.size()))
@@ -57,11 +62,42 @@ public:
         std::error_code ignored;
         fs::remove_all(folder_, ignored);
     }
+    fs::path folder(int i) const { return folder_ / std::to_string(i); }
     std::vector<std::unique_ptr<host::PluginManager>> managers;
 
 private:
     fs::path folder_;
+    static inline int made_ = 0;
 };
+
+/// Milliseconds of the fastest of several loads, each of a file that was not loaded before: by the plugin manager, and
+/// by dlopen.
+std::pair<double, double> loadTimes()
+{
+    constexpr int kLoads = 20;
+    const auto fastest = [](const auto& load) {
+        double best = -1;
+        for (int i = 0; i < kLoads; ++i) {
+            const double before = bench::processorSeconds();
+            load(i);
+            const double took = 1e3 * (bench::processorSeconds() - before);
+            if (best < 0 || took < best) best = took;
+        }
+        return best;
+    };
+    Plugins managed(kLoads, true);
+    const double whole = fastest([&](int i) {
+        const std::string id = "org.jet.test.bench" + std::to_string(i);
+        if (const auto loaded = managed.managers[static_cast<std::size_t>(i)]->load(id); !loaded)
+            throw std::runtime_error(loaded.error().message);
+    });
+    Plugins plain(kLoads, true);
+    const double alone = fastest([&](int i) {
+        if (!::dlopen((plain.folder(i) / "fixture-bench.so").c_str(), RTLD_NOW | RTLD_LOCAL))
+            throw std::runtime_error(::dlerror());
+    });
+    return {whole, alone};
+}
 
 /// The same work as the plugin's, called as plainly as C++ can.
 class PlainTool final : public Tool {
@@ -154,6 +190,9 @@ int main(int argc, char** argv)
         summary.add("storm_5_plugins_ms", five, "ms, ten listeners each of five plugins", 5, five < 5);
         summary.note("storm_50_plugins_ms", times.at("stormToFiftyPlugins") / 1e6,
                      "ms, one listener each of 50 plugins");
+        const auto [load, dlopenAlone] = loadTimes();
+        summary.add("load_over_dlopen", load - dlopenAlone, "ms CPU", 1, load - dlopenAlone < 1);
+        summary.note("load_dlopen", dlopenAlone, "ms CPU, dlopen alone");
         summary.note("storm_host_ms", times.at("stormToTheHost") / 1e6, "ms, the same listeners in JET itself");
     });
 }
