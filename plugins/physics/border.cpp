@@ -59,7 +59,7 @@ void markCollidable(State& state, const BodyRecord& body)
 void rebuildGrid(State& state, BodyRecord& body)
 {
     const auto& at = state.gridFrame(body);
-    thread_local std::vector<EdgeGrid::Edge> edges;
+    std::vector<EdgeGrid::Edge>& edges = state.scratch.edges;
     edges.clear();
     for (Index w = body.walls.first; w < body.walls.end(); ++w)
         edges.push_back({at[state.walls.first[w]], at[state.walls.second[w]]});

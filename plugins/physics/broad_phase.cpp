@@ -5,7 +5,7 @@ namespace jet::physics {
 void findPairs(const State& state, const std::vector<Motion>& motions, std::vector<BodyPair>& pairs)
 {
     pairs.clear();
-    thread_local std::vector<Index> order;
+    std::vector<Index>& order = state.scratch.order;
     order.clear();
     for (Index body = 0; body < motions.size(); ++body)
         if (state.bodies[body].points.count > 0 && !motions[body].reach.isNull()) order.push_back(body);

@@ -96,12 +96,20 @@ struct BodyReadings {
     std::vector<Index> firstPoint{0};  // [bodies + 1]
 };
 
+/// Room that is used again each step. Not thread-local: a destructor of a thread would keep the library in memory.
+struct Scratch {
+    std::vector<Index> order;
+    std::vector<EdgeGrid::Edge> edges;
+    std::vector<Vec2> gradient;
+};
+
 struct State {
     Nodes nodes;
     Points points;
     Walls walls;
     std::vector<BodyRecord> bodies;
     BodyReadings readings;
+    mutable Scratch scratch;  // holds nothing between calls
 
     Vec2 pointNow(Index point) const
     {

@@ -66,10 +66,9 @@ double enclosedArea(const State& state, const BodyRecord& body)
 
 void applyPressure(State& state, double h)
 {
-    thread_local std::vector<Vec2> gradient;
     for (const BodyRecord& body : state.bodies) {
         if (body.rigid || body.fixed || !(body.restArea > 0)) continue;
-        if (body.matter.pressure > 0 || body.matter.areaStiffness > 0) push(state, body, h, gradient);
+        if (body.matter.pressure > 0 || body.matter.areaStiffness > 0) push(state, body, h, state.scratch.gradient);
     }
 }
 
