@@ -1,6 +1,6 @@
 #include "trigonometry.hpp"
 
-#include <array>
+#include <cmath>
 
 namespace jet::physics {
 
@@ -10,21 +10,25 @@ namespace {
 constexpr double kHalfPiHigh = 1.57079632673412561417;
 constexpr double kHalfPiLow = 6.07710050650619224932e-11;
 
+/// A polynomial in q, the coefficient of the highest power first.
+template <class... Coefficients>
+double polynomial(double q, double highest, Coefficients... others)
+{
+    ((highest = others + q * highest), ...);
+    return highest;
+}
+
 /// Taylor sums for |x| <= pi/4; the first term left out is below 1e-17.
 double sinNearZero(double x)
 {
-    const double q = x * x;
-    double sum = 1.0;
-    for (int n = 16; n >= 2; n -= 2) sum = 1.0 - sum * q / (n * (n + 1));
-    return x * sum;
+    return x * polynomial(x * x, 1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
+                          1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0);
 }
 
 double cosNearZero(double x)
 {
-    const double q = x * x;
-    double sum = 1.0;
-    for (int n = 17; n >= 1; n -= 2) sum = 1.0 - sum * q / (n * (n + 1));
-    return sum;
+    return polynomial(x * x, -1.0 / 6402373705728000.0, 1.0 / 20922789888000.0, -1.0 / 87178291200.0, 1.0 / 479001600.0,
+                      -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0, -1.0 / 2.0, 1.0);
 }
 
 /// Arc tangent for x in [0, 1]: above tan(pi/12) reduced by pi/6, then its alternating series.
@@ -47,6 +51,7 @@ double atanInUnit(double x)
 
 Vec2 direction(double angle)
 {
+    if (std::abs(angle) < kPi / 4) return {cosNearZero(angle), sinNearZero(angle)};
     const double turns = std::floor(angle * (2 / kPi) + 0.5);
     const double x = (angle - turns * kHalfPiHigh) - turns * kHalfPiLow;
     const double c = cosNearZero(x), s = sinNearZero(x);

@@ -109,6 +109,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 shift = centre - state_.readings.position[handle];
+    rigid_.disturb(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.position[p] = state_.pointNow(p);
     updateReading(state_, handle);

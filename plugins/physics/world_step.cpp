@@ -66,10 +66,7 @@ void World::step(double dt)
             contacts_.begin(state_);
             soughtAt = now;
         }
-        if (i == 0) {
-            rigid_.find(state_, settings_, dt, stats_);
-            rigid_.begin(state_, settings_, h, dt);
-        }
+        if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
         substep(h, i, count);
         if (i + 1 == count) rigid_.finish(state_, true);
     }

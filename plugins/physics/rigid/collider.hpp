@@ -1,7 +1,12 @@
 // Collision of rigid bodies that are made of simple parts: poses -> boxes -> pairs -> points, once a step.
+//
+// A pair of parts whose boxes meet is a contact. It keeps its index while it lives, and is looked at again only when
+// one of its bodies has moved: a body that stays within its slop of where it was is quiet, and what is between quiet
+// bodies costs nothing here (the solver carries the separations on).
 #pragma once
 
 #include "pairs.hpp"
+#include "pool.hpp"
 
 #include <jet/physics.hpp>
 
@@ -16,9 +21,28 @@ public:
     /// Two bodies that shall not collide, because a joint holds them.
     void exclude(Index a, Index b) { excluded_.insert(bodyKey(a, b)); }
     void include(Index a, Index b) { excluded_.erase(bodyKey(a, b)); }
+    /// Something about the body has changed: all its contacts are looked at again.
+    void disturb(Index body);
 
-    /// Finds the points that serve the coming dt seconds.
-    void find(const State&, const WorldSettings&, double dt, StepStats&);
+    /// Where bodies are and which pairs may meet in the coming dt seconds.
+    void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&);
+    /// After update(): bodies that fast ones are going to hit may come farther than they know; they are given more
+    /// room, and what they meet in it is to be updated too. False: there are none.
+    bool expectHits(const State&, const WorldSettings&, double dt);
+
+    /// Is the pair to be looked at in this step?
+    bool due(const RigidContact& c) const { return c.due || drift_[c.bodyA] + drift_[c.bodyB] > c.slop; }
+    /// [bodies] units a body may come from where it rests in this step.
+    const float* drifts() const { return drift_.data(); }
+    /// Are there contacts that are due for another reason?
+    bool anyDisturbed() const { return disturbed_; }
+    /// All that was due has been looked at.
+    void settled() { disturbed_ = false; }
+    /// Brings the pair's points up to date; false: they are far apart and the pair is to be forgotten. Different
+    /// contacts may be updated at once.
+    bool update(RigidContact&, double dt) const;
+    void forget(Index contact);
+
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
     void stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves, const std::vector<double>& turns,
                         double dt) const;
@@ -27,20 +51,31 @@ public:
     const std::vector<RigidBody>& bodies() const { return bodies_; }
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<Pose>& poses() const { return poses_; }
+    /// With gaps, where places() says kFree.
     std::vector<RigidContact>& contacts() { return contacts_; }
     const std::vector<RigidContact>& contacts() const { return contacts_; }
-    /// Pairs that touched in the step before and are too far apart now, since the last find().
-    const std::vector<RigidContact>& ended() const { return ended_; }
-    /// Does a body close in by more than `part` of its size in a substep of h?
-    bool anyHit(float part, double h) const { return worstHit_ * static_cast<float>(h) > part; }
+    std::vector<Place>& places() { return places_; }
+    const std::vector<Place>& places() const { return places_; }
+    std::size_t contactCount() const { return contacts_.size() - free_.size(); }
+
+    /// Relative speed of a pair's first point, as a part of the smaller part's size: how hard a hit is.
+    float hitSpeed(const RigidContact&) const;
     void forgetPairs();
+    void disturbAll();
     std::size_t bytes() const;
 
     template <class Archive>
     void archive(Archive& with)
     {
+        sweep_.resize(parts_.size());
         with.list(contacts_, [&](RigidContact& c) { with(c); });
-        with(sweep_.boxes());
+        with.list(places_, [&](Place& p) { with(p); });
+        with.list(free_, [&](Index& i) { with(i); });
+        fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1), resting_.resize(bodies_.size());
+        for (std::vector<Pose>* poses : {&fitted_, &resting_})
+            for (Pose& pose : *poses) with(pose.x), with(pose.y), with(pose.turn);
+        with(room_), with(disturbed_);
+        sweep_.archive(with);
     }
     /// After restoring: what follows from what was restored.
     void rebuild();
@@ -50,15 +85,19 @@ private:
     {
         return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
     }
-    void takePoses(const State&, const WorldSettings&, double dt);
-    void fitBoxes(double dt);
+    void measure();
+    void prepareBodies();
+    bool takePose(Index body, const State&, float fall, double dt);
+    void noteDrift(Index body);
+    bool fitBoxes(Index body, double dt);
     void fitBox(Index part, const Pose&, float room, double dt);
     void findPairs(const WorldSettings&);
-    bool expectHits(double dt);
     void addPair(Index partA, Index partB, const WorldSettings&);
+    bool mayMeet(Index bodyA, Index bodyB) const;
+    bool surprise(Index body, float gain, double dt);
     bool apart(Index partA, Index partB) const;
     Relative relative(Index bodyA, Index bodyB) const;
-    bool update(RigidContact&, double dt);
+    float closingSpeed(const RigidContact&) const;
     bool reuse(RigidContact&, const Relative&, float reach) const;
     void renew(RigidContact&, const Manifold&, const Relative&, float reach) const;
     void foresee(RigidContact&, const Relative&, double dt) const;
@@ -68,13 +107,18 @@ private:
     std::vector<Part> parts_;
     std::vector<Pose> poses_;
     std::vector<Pose> fitted_;     // as of the body's last fitting
+    std::vector<Pose> resting_;    // where it was when it last moved
+    std::vector<float> drift_;     // [bodies] units it may come from there in this step; huge: it moves
     std::vector<float> room_;      // [bodies] units a part may move in its box
     std::vector<float> surprise_;  // [bodies] units a hit may carry it in this step
     PairSweep sweep_;
     KeySet known_, excluded_;
-    std::vector<RigidContact> contacts_, ended_;
-    float typical_ = 0;   // length of a moving part in the middle
-    float worstHit_ = 0;  // lengths / s
+    std::vector<RigidContact> contacts_;
+    std::vector<Place> places_;       // [contacts]
+    std::vector<Index> free_;         // gaps in the contacts
+    float typical_ = 0;               // length of a moving part in the middle
+    std::atomic<bool> fast_ = false;  // does any body move by much of its size in this step?
+    bool surprised_ = false, disturbed_ = true;
 };
 
 /// When the parts come to touch, as a part of dt, moving with the velocities of their poses; > 1: not in this step.

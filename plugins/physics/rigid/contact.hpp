@@ -16,6 +16,7 @@ struct RigidBody {
     bool moves = false;  // pushed by contacts
     bool kinematic = false, sensor = false;
     float length = 1;                    // typical size, units
+    float finest = 0;                    // the same of its smallest part
     float reach = 0;                     // farthest point from the centre, units
     float oneSidedX = 0, oneSidedY = 0;  // unit, or null
 };
@@ -34,6 +35,13 @@ struct FatBox {
     bool meets(const FatBox& b) const { return minX <= b.maxX && b.minX <= maxX && minY <= b.maxY && b.minY <= maxY; }
 };
 
+/// Where a contact's constraint lies in the solver: a colour and a lane, or nowhere.
+using Place = std::uint32_t;
+inline constexpr Place kIdle = 0xffffffffU;  // has no constraint: nothing near enough, or not to be pushed
+inline constexpr Place kFree = 0xfffffffeU;  // no contact at all
+inline constexpr int kLaneBits = 26;
+
+/// Two parts whose boxes meet. Two cache lines; the impulses are the solver's while it has a constraint.
 struct RigidContact {
     Index partA = 0, partB = 0;
     Index bodyA = 0, bodyB = 0;  // rigid bodies
@@ -42,18 +50,27 @@ struct RigidContact {
     std::uint8_t count = 0;  // points
     bool resolve = true;     // false: sensors, or a platform passed from behind
     bool touching = false;   // pushed, or overlapped without being resolved, in the last step
-    bool touched = false;    // the same, a step before
     bool passing = false;    // one-sided: came from behind and goes through until they are apart
     std::uint16_t ids[2] = {0, 0};
     Relative at;                                            // the pose the points were found in
     float reach = 0;                                        // units they were sought in
     Vec2f normal;                                           // in A's frame, from A to B
     Vec2f onA[2], onB[2];                                   // in the frames of their bodies
-    float separation[2] = {0, 0};                           // units, at the start of the step
+    float separation[2] = {0, 0};                           // units, when last looked at
     float impulse[2] = {0, 0}, tangentImpulse[2] = {0, 0};  // of the last substep, mass units / s
-    float stepImpulse = 0;                                  // greatest of the step
+    float stepImpulse = 0;                                  // greatest of the step in which they began to touch
+    bool due = true;                                        // to be looked at in the next step in any case
+    bool foreseen = false;                                  // its point is one of a hit later in the step
+    std::uint16_t unused = 0;
 
+    /// Units between the surfaces where they are nearest; huge when nothing is near.
+    float nearest() const
+    {
+        if (count == 0) return 3e38F;
+        return count > 1 && separation[1] < separation[0] ? separation[1] : separation[0];
+    }
     std::uint64_t key() const { return (static_cast<std::uint64_t>(partA) << 32) | partB; }
 };
+static_assert(sizeof(RigidContact) == 128);
 
 }  // namespace jet::physics

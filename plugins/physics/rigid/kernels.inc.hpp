@@ -16,6 +16,14 @@ JET_INLINE Lanes<Real> choose(const Mask<Real>& mask, const Lanes<Real>& yes, co
 {
     return (Lanes<Real>)((mask & (Mask<Real>)yes) | (~mask & (Mask<Real>)no));
 }
+/// A bit for each lane that is set.
+template <class Real>
+JET_INLINE std::uint32_t bitsOf(const Mask<Real>& mask)
+{
+    std::uint32_t bits = 0;
+    for (int i = 0; i < kLanes<Real>; ++i) bits |= static_cast<std::uint32_t>(mask[i] & 1) << i;
+    return bits;
+}
 template <class Values>
 JET_INLINE Values least(const Values& a, const Values& b)
 {
@@ -76,9 +84,9 @@ JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, con
                                __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13),
                                __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15)};
     for (int i = 0; i < 4; ++i) {
-        if (index[i] != 0)
+        if (bodies[index[i]].invMass != 0)
             *reinterpret_cast<Four*>(&bodies[index[i]]) = __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3);
-        if (index[i + 4] != 0)
+        if (bodies[index[i + 4]].invMass != 0)
             *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
     }
 }
@@ -103,8 +111,8 @@ JET_INLINE void gather(const BodyState<double>* bodies, const std::int32_t* inde
 JET_INLINE void scatter(BodyState<double>* bodies, const std::int32_t* index, const BodyLanes<double>& s)
 {
     for (int i = 0; i < 4; ++i) {
-        if (index[i] == 0) continue;
         BodyState<double>& body = bodies[index[i]];
+        if (body.invMass == 0) continue;
         body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.omega = s.omega[i];
     }
 }
@@ -230,6 +238,47 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
 }
 
 template <class Real>
+void approachContacts(const BodyState<Real>* bodies, const ContactLanes<Real>* groups, BounceLanes<Real>* bounces,
+                      std::size_t count)
+{
+    for (std::size_t g = 0; g < count; ++g) {
+        const ContactLanes<Real>& c = groups[g];
+        const BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
+        for (int k = 0; k < 2; ++k) {
+            const auto& p = c.points[k];
+            bounces[g].approach[k] = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
+            bounces[g].most[k] = all<Real>(0);
+        }
+    }
+}
+
+template <class Real>
+void scaleContacts(ContactLanes<Real>* groups, FrictionLanes<Real>* frictions, std::size_t count, Real by)
+{
+    for (std::size_t g = 0; g < count; ++g)
+        for (int k = 0; k < 2; ++k) groups[g].points[k].impulse *= by, frictions[g].points[k].impulse *= by;
+}
+
+template <class Real>
+void carryContacts(const BodyState<Real>* bodies, ContactLanes<Real>* groups, const BounceLanes<Real>* bounces,
+                   std::uint32_t* bits, std::size_t count)
+{
+    const Lanes<Real> zero = all<Real>(0);
+    for (std::size_t g = 0; g < count; ++g) {
+        ContactLanes<Real>& c = groups[g];
+        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
+        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
+        Lanes<Real> pushed = zero;
+        for (int k = 0; k < 2; ++k) {
+            auto& p = c.points[k];
+            p.separation += moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
+            pushed = most(pushed, bounces != nullptr ? bounces[g].most[k] : p.impulse);
+        }
+        bits[g] = bitsOf<Real>(pushed > zero);
+    }
+}
+
+template <class Real>
 void noteImpulses(const ContactLanes<Real>* groups, BounceLanes<Real>* bounces, std::size_t count)
 {
     for (std::size_t g = 0; g < count; ++g)
@@ -335,9 +384,9 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {warmContacts<Real>,  warmJoints<Real>,          solveContacts<Real>,
-            relaxContacts<Real>, noteImpulses<Real>,        bounceContacts<Real>,
-            solveJoints<Real>,   integrateVelocities<Real>, integratePositions<Real>};
+    return {warmContacts<Real>,     warmJoints<Real>,    solveContacts<Real>,       relaxContacts<Real>,
+            approachContacts<Real>, scaleContacts<Real>, carryContacts<Real>,       noteImpulses<Real>,
+            bounceContacts<Real>,   solveJoints<Real>,   integrateVelocities<Real>, integratePositions<Real>};
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace jet::physics {
 
 namespace {
 
-constexpr std::uint64_t kFree = ~std::uint64_t{0};
+constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
 
 /// Floats as integers in the same order.
 std::uint32_t ordered(float x)
@@ -28,7 +28,7 @@ bool KeySet::insert(std::uint64_t key)
 {
     if (2 * (count_ + 1) > slots_.size()) grow();
     std::size_t at = slotOf(key);
-    for (; slots_[at] != kFree; at = (at + 1) & (slots_.size() - 1))
+    for (; slots_[at] != kEmpty; at = (at + 1) & (slots_.size() - 1))
         if (slots_[at] == key) return false;
     slots_[at] = key;
     ++count_;
@@ -38,7 +38,7 @@ bool KeySet::insert(std::uint64_t key)
 bool KeySet::contains(std::uint64_t key) const
 {
     if (count_ == 0) return false;
-    for (std::size_t at = slotOf(key); slots_[at] != kFree; at = (at + 1) & (slots_.size() - 1))
+    for (std::size_t at = slotOf(key); slots_[at] != kEmpty; at = (at + 1) & (slots_.size() - 1))
         if (slots_[at] == key) return true;
     return false;
 }
@@ -49,21 +49,21 @@ void KeySet::erase(std::uint64_t key)
     const std::size_t last = slots_.size() - 1;
     std::size_t at = slotOf(key);
     for (; slots_[at] != key; at = (at + 1) & last)
-        if (slots_[at] == kFree) return;
+        if (slots_[at] == kEmpty) return;
     // Moves back what was pushed on by the key that goes.
-    for (std::size_t next = (at + 1) & last; slots_[next] != kFree; next = (next + 1) & last) {
+    for (std::size_t next = (at + 1) & last; slots_[next] != kEmpty; next = (next + 1) & last) {
         const std::size_t home = slotOf(slots_[next]);
         if (((next - home) & last) < ((next - at) & last)) continue;
         slots_[at] = slots_[next];
         at = next;
     }
-    slots_[at] = kFree;
+    slots_[at] = kEmpty;
     --count_;
 }
 
 void KeySet::clear()
 {
-    std::fill(slots_.begin(), slots_.end(), kFree);
+    std::fill(slots_.begin(), slots_.end(), kEmpty);
     count_ = 0;
 }
 
@@ -71,11 +71,11 @@ void KeySet::grow()
 {
     std::vector<std::uint64_t> old;
     old.swap(slots_);
-    slots_.assign(std::max<std::size_t>(64, 2 * old.size()), kFree);
+    slots_.assign(std::max<std::size_t>(64, 2 * old.size()), kEmpty);
     for (std::uint64_t key : old) {
-        if (key == kFree) continue;
+        if (key == kEmpty) continue;
         std::size_t at = slotOf(key);
-        while (slots_[at] != kFree) at = (at + 1) & (slots_.size() - 1);
+        while (slots_[at] != kEmpty) at = (at + 1) & (slots_.size() - 1);
         slots_[at] = key;
     }
 }
@@ -84,6 +84,7 @@ void PairSweep::resize(std::size_t parts)
 {
     for (std::size_t part = order_.size(); part < parts; ++part) order_.push_back(static_cast<Index>(part));
     boxes_.resize(parts);
+    if (moved_.size() < parts) anyMoved_ = true;
     moved_.resize(parts, 1);
     keys_.resize(parts);
     for (auto* list : {&minX_, &minY_, &maxX_, &maxY_}) list->resize(parts + 8);

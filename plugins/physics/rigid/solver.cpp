@@ -1,3 +1,4 @@
+// The solver's schedule: joints, passes and what becomes of them.
 #include "solver.hpp"
 
 #include <cmath>
@@ -6,12 +7,14 @@ namespace jet::physics {
 
 namespace {
 
-constexpr double kContactHertz = 60, kHertzPerSubstepRate = 0.25, kContactDamping = 10;
-constexpr double kJointHertz = 60, kJointDamping = 2;
-constexpr float kPushLengths = 4;  // overlaps are pushed out no faster than this many lengths a second
-constexpr float kSlopsPerLength = 500;
+// As stiff as the substeps carry: at a quarter of their rate contacts of piles of a hundred rows ring for seconds.
+constexpr double kContactHertz = 60, kHertzPerSubstepRate = 5.0 / 24, kContactDamping = 10;
+constexpr double kJointHertz = 80, kJointHertzPerSubstepRate = 1.0 / 3, kJointDamping = 2;
+// Relaxing twice takes the pushing velocity out of tall piles, which then rest: it pays for itself.
+constexpr int kRelaxPasses = 2;
+constexpr int kJointPushPasses = 2;  // chains of joints carry forces far
 constexpr int kBouncePasses = 2;
-constexpr int kJointPasses = 2;  // chains of joints carry forces far; once leaves a third more error
+constexpr std::size_t kGroupsABlock = 32, kBodiesABlock = 1024;
 
 template <class Real>
 Softness<Real> softness(double hertz, double dampingRatio, double h)
@@ -23,105 +26,25 @@ Softness<Real> softness(double hertz, double dampingRatio, double h)
 }  // namespace
 
 template <class Real>
-void Solver<Real>::begin(std::size_t bodies, const StepShape& shape)
+void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool)
 {
+    pool_ = &pool;
     shape_ = shape;
     const double rate = 1 / shape.h, hertz = std::min(kContactHertz, kHertzPerSubstepRate * rate);
     constants_.h = static_cast<Real>(shape.h), constants_.inverseH = static_cast<Real>(rate);
     constants_.moving = softness<Real>(hertz, kContactDamping, shape.h);
     constants_.still = softness<Real>(2 * hertz, kContactDamping, shape.h);
-    constants_.joint = softness<Real>(std::min(kJointHertz, kHertzPerSubstepRate * rate), kJointDamping, shape.h);
+    constants_.joint = softness<Real>(std::min(kJointHertz, kJointHertzPerSubstepRate * rate), kJointDamping, shape.h);
     constants_.restSpeed = static_cast<Real>(shape.restSpeed);
     kernels_ = &kernels<Real>(shape.choice);
     states_.resize(bodies), pushes_.resize(bodies);
     states_[0] = BodyState<Real>(), pushes_[0] = BodyPush<Real>();
-    taken_.assign(bodies, 0), takenByJoints_.assign(bodies, 0);
+    taken_.resize(bodies, 0), takenByJoints_.assign(bodies, 0);
     if (colours_.empty()) colours_.resize(kColours), jointColours_.resize(kColours);
-    for (Colour& colour : colours_) {
-        colour.contacts.clear(), colour.frictions.clear(), colour.bounces.clear(), colour.index.clear();
-        colour.count = 0;
-    }
     for (JointColour& colour : jointColours_) colour.joints.clear(), colour.index.clear(), colour.count = 0;
     rows_.clear();
-    used_ = 0;
-    bounces_ = false;
-}
-
-/// The first colour neither body is in yet; what does not move is in none.
-template <class Real>
-int Solver<Real>::colourOf(Index a, Index b, std::vector<std::uint32_t>& taken)
-{
-    const bool movesA = states_[a].invMass > 0, movesB = states_[b].invMass > 0;
-    const std::uint32_t both = (movesA ? taken[a] : 0) | (movesB ? taken[b] : 0);
-    const int colour = std::min(__builtin_ctz(~both | 1U << (kColours - 1)), kColours - 1);
-    if (colour == kColours - 1) return colour;
-    if (movesA) taken[a] |= 1U << colour;
-    if (movesB) taken[b] |= 1U << colour;
-    return colour;
-}
-
-template <class Real>
-std::size_t Solver<Real>::laneOf(Colour& colour, bool alone)
-{
-    constexpr std::size_t lanes = kLanes<Real>;
-    if (alone) colour.count = groups(colour.count) * lanes;
-    const std::size_t lane = colour.count++;
-    if (lane % lanes == 0) {
-        colour.contacts.emplace_back(ContactLanes<Real>{});
-        colour.frictions.emplace_back(FrictionLanes<Real>{});
-        if (bounces_) colour.bounces.resize(colour.contacts.size(), BounceLanes<Real>{});
-        colour.index.resize(colour.contacts.size() * lanes, kNone);
-    }
-    return lane;
-}
-
-template <class Real>
-void Solver<Real>::addContact(RigidContact& c, Index index, const RigidBody&, const RigidBody&, const Pose& poseA,
-                              const Pose& poseB)
-{
-    const BodyState<Real>&a = states_[c.bodyA], &b = states_[c.bodyB];
-    const int which = colourOf(c.bodyA, c.bodyB, taken_);
-    Colour& colour = colours_[static_cast<std::size_t>(which)];
-    used_ = std::max(used_, static_cast<std::size_t>(which) + 1);
-    if (c.restitution > 0) bounces_ = true;
-    const std::size_t at = laneOf(colour, which == kColours - 1), group = at / kLanes<Real>, lane = at % kLanes<Real>;
-    if (bounces_ && colour.bounces.size() < colour.contacts.size())
-        colour.bounces.resize(colour.contacts.size(), BounceLanes<Real>{});
-    colour.index[at] = index;
-    ContactLanes<Real>& g = colour.contacts[group];
-    FrictionLanes<Real>& f = colour.frictions[group];
-    g.a[lane] =
-        a.invMass > 0 || a.velocityX != 0 || a.velocityY != 0 || a.omega != 0 ? static_cast<std::int32_t>(c.bodyA) : 0;
-    g.b[lane] =
-        b.invMass > 0 || b.velocityX != 0 || b.velocityY != 0 || b.omega != 0 ? static_cast<std::int32_t>(c.bodyB) : 0;
-    const Vec2f n = turned(poseA.turn, c.normal);
-    const Real nx = n.x, ny = n.y;
-    g.normalX[lane] = nx, g.normalY[lane] = ny;
-    g.mostPush[lane] = kPushLengths * kSlopsPerLength * c.slop;
-    f.friction[lane] = c.friction;
-    const Real inverse = a.invMass + b.invMass;
-    for (int k = 0; k < c.count; ++k) {
-        // Both arms end in one place, half way between the surfaces.
-        // Far ones, of foreseen hits, act on the surfaces.
-        const Vec2f half = (c.separation[k] < 20 * c.slop ? 0.5F * c.separation[k] : 0.0F) * n;
-        const Vec2f armA = turned(poseA.turn, c.onA[k]) + half, armB = turned(poseB.turn, c.onB[k]) - half;
-        auto& p = g.points[k];
-        auto& q = f.points[k];
-        const Real leverA = armA.x * ny - armA.y * nx, leverB = armB.x * ny - armB.y * nx;
-        const Real slideA = armA.x * nx + armA.y * ny, slideB = armB.x * nx + armB.y * ny;
-        p.leverA[lane] = leverA, p.leverB[lane] = leverB;
-        q.leverA[lane] = slideA, q.leverB[lane] = slideB;
-        p.separation[lane] = c.separation[k] + c.slop;
-        const Real k1 = inverse + a.invInertia * leverA * leverA + b.invInertia * leverB * leverB;
-        const Real k2 = inverse + a.invInertia * slideA * slideA + b.invInertia * slideB * slideB;
-        p.mass[lane] = k1 > 0 ? 1 / k1 : 0, q.mass[lane] = k2 > 0 ? 1 / k2 : 0;
-        p.impulse[lane] = c.impulse[k], q.impulse[lane] = c.tangentImpulse[k];
-        if (!bounces_) continue;
-        BounceLanes<Real>& r = colour.bounces[group];
-        r.restitution[lane] = c.restitution;
-        r.approach[k][lane] =
-            nx * (b.velocityX - a.velocityX) + ny * (b.velocityY - a.velocityY) + leverB * b.omega - leverA * a.omega;
-    }
+    changes_.clear();
+    hardest_ = 0;
 }
 
 template <class Real>
@@ -132,7 +55,7 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     if (!(a.invMass + a.invInertia + b.invMass + b.invInertia > 0)) return;
     addRows(joint, index, f, states_, shape_.h, rows_);
     if (!joint.hasPoint()) return;
-    const int which = colourOf(joint.a, joint.b, takenByJoints_);
+    const int which = colourOf(joint.a, a.invMass > 0, joint.b, b.invMass > 0, takenByJoints_);
     JointColour& colour = jointColours_[static_cast<std::size_t>(which)];
     constexpr std::size_t lanes = kLanes<Real>;
     if (which == kColours - 1) colour.count = groups(colour.count) * lanes;
@@ -159,33 +82,70 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
 }
 
 template <class Real>
+template <class Work>
+void Solver<Real>::eachColour(Work&& work)
+{
+    for (std::size_t which = 0; which < colours_.size(); ++which) {
+        Colour& colour = colours_[which];
+        const std::size_t count = colour.contacts.size();
+        // In the last colour lanes may share bodies.
+        pool_->ranges(count, which == kColours - 1 ? std::max<std::size_t>(count, 1) : kGroupsABlock,
+                      [&](std::size_t first, std::size_t last) { work(colour, first, last - first); });
+    }
+}
+
+/// Warm-start impulses are per substep: scaled, they stand for the same force.
+template <class Real>
+void Solver<Real>::prepare(int passes)
+{
+    passes_ = passes;
+    const auto ratio = static_cast<Real>(lastH_ > 0 ? shape_.h / lastH_ : 1);
+    lastH_ = shape_.h;
+    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
+        ContactLanes<Real>* contacts = &c.contacts[first];
+        if (ratio != 1) kernels_->scaleContacts(contacts, &c.frictions[first], count, ratio);
+        if (bounces_) kernels_->approachContacts(states_.data(), contacts, &c.bounces[first], count);
+    });
+}
+
+template <class Real>
 void Solver<Real>::warmAll()
 {
-    if (bounces_)
-        for (Colour& c : colours_) c.bounces.resize(c.contacts.size(), BounceLanes<Real>{});
     for (const JointRow<Real>& row : rows_) row.warm(states_.data());
     for (JointColour& c : jointColours_) kernels_->warmJoints(states_.data(), c.joints.data(), c.joints.size());
-    for (Colour& c : colours_)
-        kernels_->warmContacts(states_.data(), c.contacts.data(), c.frictions.data(), c.contacts.size());
+    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
+        kernels_->warmContacts(states_.data(), &c.contacts[first], &c.frictions[first], count);
+    });
+}
+
+template <class Real>
+void Solver<Real>::solveJointsOnce(bool push)
+{
+    for (std::size_t which = 0; which < jointColours_.size(); ++which) {
+        JointColour& c = jointColours_[which];
+        const std::size_t groups = c.joints.size();
+        pool_->ranges(groups, which == kColours - 1 ? std::max<std::size_t>(groups, 1) : kGroupsABlock,
+                      [&](std::size_t first, std::size_t last) {
+                          kernels_->solveJoints(states_.data(), &c.joints[first], last - first, constants_, push);
+                      });
+    }
 }
 
 template <class Real>
 void Solver<Real>::solveAll(bool push)
 {
     BodyState<Real>* states = states_.data();
-    for (int pass = 0; pass < shape_.passes; ++pass) {
+    const int passes = push ? passes_ : passes_ * kRelaxPasses;
+    for (int pass = 0; pass < passes; ++pass) {
         for (JointRow<Real>& row : rows_) row.solve(states, constants_.joint, constants_.inverseH, push);
-        for (int again = 0; again < kJointPasses; ++again)
-            for (JointColour& c : jointColours_)
-                if (c.count > 0) kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, push);
-        for (Colour& c : colours_) {
-            if (c.count == 0) continue;
+        for (int again = 0; again < (push ? kJointPushPasses : 1); ++again) solveJointsOnce(push);
+        eachColour([&](Colour& c, std::size_t first, std::size_t count) {
             if (push) {
-                kernels_->solveContacts(states, c.contacts.data(), c.contacts.size(), constants_);
+                kernels_->solveContacts(states, &c.contacts[first], count, constants_);
             } else {
-                kernels_->relaxContacts(states, c.contacts.data(), c.frictions.data(), c.contacts.size(), constants_);
+                kernels_->relaxContacts(states, &c.contacts[first], &c.frictions[first], count, constants_);
             }
-        }
+        });
     }
 }
 
@@ -193,8 +153,9 @@ template <class Real>
 void Solver<Real>::noteAll()
 {
     if (!bounces_) return;
-    for (Colour& c : colours_)
-        if (c.count > 0) kernels_->noteImpulses(c.contacts.data(), c.bounces.data(), c.contacts.size());
+    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
+        kernels_->noteImpulses(&c.contacts[first], &c.bounces[first], count);
+    });
 }
 
 template <class Real>
@@ -219,10 +180,14 @@ void Solver<Real>::run()
         s.velocityX = p.beforeX, s.velocityY = p.beforeY, s.omega = p.beforeW;
     }
     for (int i = 0; i < shape_.substeps; ++i) {
-        kernels_->integrateVelocities(states_.data(), pushes_.data(), states_.size(), constants_.h);
+        pool_->ranges(states_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
+            kernels_->integrateVelocities(&states_[first], &pushes_[first], last - first, constants_.h);
+        });
         solveAll(true);
         noteAll();
-        kernels_->integratePositions(states_.data(), states_.size(), constants_.h);
+        pool_->ranges(states_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
+            kernels_->integratePositions(&states_[first], last - first, constants_.h);
+        });
         solveAll(false);
         noteAll();
     }
@@ -251,29 +216,29 @@ template <class Real>
 void Solver<Real>::bounce()
 {
     if (!bounces_) return;
-    for (int pass = 0; pass < kBouncePasses * std::min(shape_.passes, 4); ++pass)
-        for (Colour& c : colours_)
-            if (c.count > 0)
-                kernels_->bounceContacts(states_.data(), c.contacts.data(), c.bounces.data(), c.contacts.size(),
-                                         constants_);
+    for (int pass = 0; pass < kBouncePasses * std::min(passes_, 4); ++pass)
+        eachColour([&](Colour& c, std::size_t first, std::size_t count) {
+            kernels_->bounceContacts(states_.data(), &c.contacts[first], &c.bounces[first], count, constants_);
+        });
 }
 
 template <class Real>
-void Solver<Real>::finish(std::vector<RigidContact>& contacts, std::vector<Joint>& joints)
+void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
 {
-    for (const Colour& colour : colours_) {
-        for (std::size_t at = 0; at < colour.count; ++at) {
-            if (colour.index[at] == kNone) continue;
-            RigidContact& c = contacts[colour.index[at]];
-            const std::size_t group = at / kLanes<Real>, lane = at % kLanes<Real>;
-            const ContactLanes<Real>& g = colour.contacts[group];
-            c.stepImpulse = 0;
-            for (int k = 0; k < c.count; ++k) {
-                c.impulse[k] = static_cast<float>(g.points[k].impulse[lane]);
-                c.tangentImpulse[k] = static_cast<float>(colour.frictions[group].points[k].impulse[lane]);
-                c.stepImpulse += bounces_ ? static_cast<float>(colour.bounces[group].most[k][lane]) : c.impulse[k];
+    collider.settled();
+    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
+        kernels_->carryContacts(states_.data(), &c.contacts[first], bounces_ ? &c.bounces[first] : nullptr,
+                                &c.touches[first], count);
+    });
+    for (Colour& colour : colours_) {
+        for (std::size_t group = 0; group < colour.touches.size(); ++group) {
+            for (std::uint32_t rest = colour.touches[group] ^ colour.touched[group]; rest != 0; rest &= rest - 1) {
+                const std::size_t at = group * kWidth + static_cast<std::size_t>(__builtin_ctz(rest));
+                RigidContact& c = collider.contacts()[colour.index[at]];
+                fetch(c, collider.places()[colour.index[at]]);
+                change(c, (colour.touches[group] >> (at % kWidth) & 1U) != 0);
             }
-            c.touching = c.stepImpulse > 0;
+            colour.touched[group] = colour.touches[group];
         }
     }
     for (const JointColour& colour : jointColours_) {
@@ -292,6 +257,15 @@ void Solver<Real>::finish(std::vector<RigidContact>& contacts, std::vector<Joint
         if (row.bx == 0 && row.by == 0)
             joint.state.torque += static_cast<double>(row.impulse * row.angularB) / shape_.h;
     }
+}
+
+template <class Real>
+std::size_t Solver<Real>::colours() const
+{
+    std::size_t used = 0;
+    for (std::size_t i = 0; i < colours_.size(); ++i)
+        if (colours_[i].count > 0) used = i + 1;
+    return used;
 }
 
 template <class Real>

@@ -98,6 +98,12 @@ struct Kernels {
     /// Takes the pushing velocity back out; friction.
     void (*relaxContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, std::size_t,
                           const StepConstants<Real>&);
+    /// For the bounces: relative speeds before anything is solved.
+    void (*approachContacts)(const BodyState<Real>*, const ContactLanes<Real>*, BounceLanes<Real>*, std::size_t);
+    void (*scaleContacts)(ContactLanes<Real>*, FrictionLanes<Real>*, std::size_t, Real by);
+    /// Moves the separations on to the end of the step, and sets a bit for each lane that pushed.
+    void (*carryContacts)(const BodyState<Real>*, ContactLanes<Real>*, const BounceLanes<Real>*, std::uint32_t* bits,
+                          std::size_t);
     void (*noteImpulses)(const ContactLanes<Real>*, BounceLanes<Real>*, std::size_t);
     void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, BounceLanes<Real>*, std::size_t,
                            const StepConstants<Real>&);

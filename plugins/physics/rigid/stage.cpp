@@ -14,6 +14,13 @@ constexpr double kContactRate = 480;      // substeps a second of small worlds
 constexpr int kLargeSubsteps = 4;
 constexpr float kHitSmall = 0.08F, kHitLarge = 0.6F;  // lengths a substep that make a hit
 constexpr int kHitPasses = 12;
+constexpr int kHitRounds = 3;
+
+/// Passes over all constraints of a substep of h.
+int passesFor(float hardestHit, bool large, double h)
+{
+    return hardestHit * static_cast<float>(h) > (large ? kHitLarge : kHitSmall) ? kHitPasses : 1;
+}
 
 double millisecondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -84,13 +91,33 @@ void RigidStage::removeJoint(Index index)
     if (!joint.def.collide) collider_.include(joint.a, joint.b);
 }
 
-void RigidStage::find(const State& state, const WorldSettings& settings, double dt, StepStats& stats)
+/// Only one of the solvers has the contacts; they change hands with their impulses.
+void RigidStage::activate(bool singles)
 {
-    if (settings.findCollisions) {
-        collider_.find(state, settings, dt, stats);
-    } else {
+    const Active wanted = singles ? Active::Single : Active::Double;
+    if (active_ == wanted) return;
+    if (active_ == Active::Single) single_.release(collider_);
+    if (active_ == Active::Double) double_.release(collider_);
+    active_ = wanted;
+}
+
+template <class Real>
+void RigidStage::look(Solver<Real>& solver, const State& state, const WorldSettings& settings, double dt,
+                      StepStats& stats)
+{
+    if (!settings.findCollisions) {
+        solver.release(collider_);
         collider_.forgetPairs();
+        return;
     }
+    if (resolving_ != settings.resolveCollisions) solver.release(collider_);
+    resolving_ = settings.resolveCollisions;
+    collider_.find(state, settings, dt, stats, pool_);
+    const auto start = std::chrono::steady_clock::now();
+    solver.refresh(collider_, dt, settings.resolveCollisions);
+    for (int round = 0; round < kHitRounds && collider_.expectHits(state, settings, dt); ++round)
+        solver.refresh(collider_, dt, settings.resolveCollisions);
+    stats.narrowPhaseMs += millisecondsSince(start);
 }
 
 StepShape RigidStage::shapeOf(const WorldSettings& settings, double dt, bool large) const
@@ -100,7 +127,6 @@ StepShape RigidStage::shapeOf(const WorldSettings& settings, double dt, bool lar
                      : large               ? kLargeSubsteps
                                            : std::clamp(static_cast<int>(std::ceil(dt * kContactRate - 1e-9)), 1, 4096);
     shape.h = dt / shape.substeps;
-    shape.passes = collider_.anyHit(large ? kHitLarge : kHitSmall, shape.h) ? kHitPasses : 1;
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * shape.h;
     shape.choice = settings.simd == Simd::Automatic ? KernelChoice::Best
                    : settings.simd == Simd::Avx2    ? KernelChoice::Avx2
@@ -124,40 +150,25 @@ void RigidStage::load(Solver<Real>& solver, const State& state)
 }
 
 template <class Real>
-void RigidStage::addConstraints(Solver<Real>& solver, const State& state, const WorldSettings& settings)
+void RigidStage::addJoints(Solver<Real>& solver, const State& state)
 {
-    auto& contacts = collider_.contacts();
-    const auto& bodies = collider_.bodies();
-    const auto& poses = collider_.poses();
     for (Index i = 0; i < joints_.size(); ++i) {
         joints_[i].state.force = Vec2(0, 0), joints_[i].state.torque = 0;
-        if (joints_[i].lives()) solver.addJoint(joints_[i], i, state, bodies);
-    }
-    for (Index i = 0; i < contacts.size(); ++i) {
-        RigidContact& c = contacts[i];
-        c.touched = c.touching;
-        c.touching = false;
-        c.stepImpulse = 0;
-        if (c.count == 0) continue;
-        if (c.resolve && settings.resolveCollisions) {
-            solver.addContact(c, i, bodies[c.bodyA], bodies[c.bodyB], poses[c.bodyA], poses[c.bodyB]);
-        } else {
-            c.touching = std::min(c.separation[0], c.count > 1 ? c.separation[1] : c.separation[0]) <= c.slop;
-        }
+        if (joints_[i].lives()) solver.addJoint(joints_[i], i, state, collider_.bodies());
     }
 }
 
 void RigidStage::step(State& state, const WorldSettings& settings, double dt, StepStats& stats)
 {
-    find(state, settings, dt, stats);
     const bool large =
         settings.precision == Precision::Automatic ? count() > kSmallWorld : settings.precision == Precision::Single;
+    activate(large);
     if (large) {
         solve(single_, state, settings, dt, stats);
     } else {
         solve(double_, state, settings, dt, stats);
     }
-    noteTouches();
+    noteTouches(large ? single_.changes() : double_.changes());
     breakJoints();
     stats.memory = bytes();
 }
@@ -165,10 +176,13 @@ void RigidStage::step(State& state, const WorldSettings& settings, double dt, St
 template <class Real>
 void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& settings, double dt, StepStats& stats)
 {
-    const auto start = std::chrono::steady_clock::now();
-    const StepShape shape = shapeOf(settings, dt, count() > kSmallWorld);
-    solver.begin(collider_.bodies().size(), shape);
+    const bool large = count() > kSmallWorld;
+    const StepShape shape = shapeOf(settings, dt, large);
+    pool_.setThreads(settings.threads);
+    solver.begin(collider_.bodies().size(), shape, pool_);
     load(solver, state);
+    look(solver, state, settings, dt, stats);
+    const auto start = std::chrono::steady_clock::now();
     const double linear = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
@@ -182,9 +196,10 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         force.accelerationW = static_cast<Real>(state.nodes.invInertia[body.node] * state.nodes.torque[body.node]);
         force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
     }
-    addConstraints(solver, state, settings);
+    addJoints(solver, state);
+    solver.prepare(passesFor(solver.hardestHit(), large, shape.h));
     solver.run();
-    solver.finish(collider_.contacts(), joints_);
+    solver.finish(collider_, joints_);
     advance(solver, state, dt);
     stats.colours = static_cast<std::uint32_t>(solver.colours());
     stats.solverMs += millisecondsSince(start);
@@ -222,20 +237,23 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
     }
 }
 
-void RigidStage::begin(State& state, const WorldSettings& settings, double h, double dt)
+void RigidStage::begin(State& state, const WorldSettings& settings, double h, double dt, StepStats& stats)
 {
+    activate(false);
     StepShape shape = shapeOf(settings, dt, false);
     shape.h = h;
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * h;
-    shape.passes = collider_.anyHit(kHitSmall, h) ? kHitPasses : 1;
-    double_.begin(collider_.bodies().size(), shape);
+    pool_.setThreads(settings.threads);
+    double_.begin(collider_.bodies().size(), shape, pool_);
     load(double_, state);
     start_.resize(collider_.bodies().size()), startAngle_.resize(collider_.bodies().size());
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
         start_[i] = state.nodes.position[collider_.bodies()[i].node];
         startAngle_[i] = state.nodes.angle[collider_.bodies()[i].node];
     }
-    addConstraints(double_, state, settings);
+    look(double_, state, settings, dt, stats);
+    addJoints(double_, state);
+    double_.prepare(passesFor(double_.hardestHit(), false, h));
 }
 
 /// Between the nodes, which other stages move too, and the solver's states.
@@ -277,8 +295,8 @@ void RigidStage::finish(State& state, bool bounce)
         double_.bounce();
         exchange(state, true);
     }
-    double_.finish(collider_.contacts(), joints_);
-    noteTouches();
+    double_.finish(collider_, joints_);
+    noteTouches(double_.changes());
     breakJoints();
 }
 
@@ -291,17 +309,19 @@ void RigidStage::breakJoints()
         }
 }
 
-void RigidStage::noteTouches()
+void RigidStage::disturb(Index handle)
+{
+    if (has(handle)) collider_.disturb(bodyOf_[handle]);
+}
+
+void RigidStage::noteTouches(const std::vector<TouchChange>& changes)
 {
     events_.clear();
     const auto& bodies = collider_.bodies();
-    const auto note = [&](const RigidContact& c, bool begins) {
+    for (const TouchChange& c : changes) {
         const Index a = bodies[c.bodyA].handle, b = bodies[c.bodyB].handle;
-        events_.push_back({std::min(a, b), std::max(a, b), begins, static_cast<double>(c.stepImpulse)});
-    };
-    for (const RigidContact& c : collider_.contacts())
-        if (c.touching != c.touched) note(c, c.touching);
-    for (const RigidContact& c : collider_.ended()) note(c, false);
+        events_.push_back({std::min(a, b), std::max(a, b), c.begins, static_cast<double>(c.impulse)});
+    }
     std::sort(events_.begin(), events_.end(), [](const ContactEvent& p, const ContactEvent& q) {
         return std::tie(p.bodyA, p.bodyB, p.begins) < std::tie(q.bodyA, q.bodyB, q.begins);
     });
@@ -309,8 +329,12 @@ void RigidStage::noteTouches()
 
 void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t>& touching) const
 {
-    for (const RigidContact& c : collider_.contacts()) {
-        if (!c.touching) continue;
+    const auto& places = collider_.places();
+    for (Index i = 0; i < places.size(); ++i) {
+        if (places[i] == kFree || !collider_.contacts()[i].touching) continue;
+        RigidContact c = collider_.contacts()[i];
+        if (places[i] != kIdle && active_ == Active::Single) single_.fetch(c, places[i]);
+        if (places[i] != kIdle && active_ == Active::Double) double_.fetch(c, places[i]);
         const Index a = collider_.bodies()[c.bodyA].handle, b = collider_.bodies()[c.bodyB].handle;
         const Pose& pose = collider_.poses()[c.bodyA];
         const Vec2f normal = turned(pose.turn, c.normal);

@@ -22,13 +22,11 @@ public:
     Index jointCount() const { return static_cast<Index>(joints_.size()); }
     void removeJoint(Index);
 
-    void find(const State&, const WorldSettings&, double dt, StepStats&);
-
     /// The whole step, where nothing else moves: `forces` and torques lie in the nodes.
     void step(State&, const WorldSettings&, double dt, StepStats&);
 
     // Or in turns with the other stages, in double precision: begin, then each substep push and relax around the move.
-    void begin(State&, const WorldSettings&, double h, double dt);
+    void begin(State&, const WorldSettings&, double h, double dt, StepStats&);
     void push(State&);
     void relax(State&);
     void finish(State&, bool bounce);
@@ -36,13 +34,17 @@ public:
     void report(std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
     const std::vector<ContactEvent>& events() const { return events_; }
     const Collider& collider() const { return collider_; }
-    void moved(Index handle);
+    /// Something about the body was changed from outside.
+    void disturb(Index handle);
     std::size_t bytes() const;
 
     template <class Archive>
     void archive(Archive& with)
     {
         collider_.archive(with);
+        with(active_);
+        if (active_ == Active::Single) single_.archive(with, collider_);
+        if (active_ == Active::Double) double_.archive(with, collider_);
         for (Joint& joint : joints_) {
             with(joint.removed), with(joint.broken), with(joint.impulse);
             with(joint.def.driven), with(joint.def.motorSpeed), with(joint.localA), with(joint.localB);
@@ -57,14 +59,23 @@ private:
     template <class Real>
     void load(Solver<Real>&, const State&);
     template <class Real>
-    void addConstraints(Solver<Real>&, const State&, const WorldSettings&);
+    void addJoints(Solver<Real>&, const State&);
+    template <class Real>
+    void look(Solver<Real>&, const State&, const WorldSettings&, double dt, StepStats&);
+    void activate(bool singles);
     template <class Real>
     void advance(Solver<Real>&, State&, double dt);
     void exchange(State&, bool store);
-    void noteTouches();
+    void noteTouches(const std::vector<TouchChange>&);
     void breakJoints();
 
+    /// Which solver holds the contacts' constraints.
+    enum class Active : std::uint8_t { None, Single, Double };
+
+    Pool pool_;
     Collider collider_;
+    Active active_ = Active::None;
+    bool resolving_ = true;
     std::vector<Index> bodyOf_;  // [handles] 0: not here
     std::vector<Joint> joints_;
     Solver<float> single_;

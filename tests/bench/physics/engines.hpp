@@ -4,6 +4,7 @@
 #include "bench/physics/scene.hpp"
 
 #include <memory>
+#include <span>
 
 namespace jet::bench {
 
@@ -19,6 +20,9 @@ public:
     virtual Pose pose(std::size_t body) const = 0;
     /// Bytes the engine holds; 0: not known.
     virtual std::size_t memory() const { return 0; }
+    virtual std::uint64_t hash() const { return 0; }
+    virtual std::vector<std::byte> save() const { return {}; }
+    virtual void restore(std::span<const std::byte>) {}
 };
 
 struct JetOptions {

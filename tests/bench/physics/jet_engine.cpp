@@ -20,6 +20,7 @@ public:
         settings.gravity = vec(scene.gravity);
         settings.threads = options.threads;
         settings.substeps = options.substeps;
+        settings.allowSleep = false;
         if (!options.simd.empty()) settings.simd = options.simd == "avx2" ? Simd::Avx2 : Simd::Sse2;
         if (!options.precision.empty())
             settings.precision = options.precision == "double" ? Precision::Double : Precision::Single;
@@ -49,6 +50,9 @@ public:
         return {{at.x(), at.y()}, scene_.bodies[body].angle + states.angle[place.body]};
     }
     std::size_t memory() const override { return world_->stats().memory; }
+    std::uint64_t hash() const override { return world_->hash(); }
+    std::vector<std::byte> save() const override { return world_->save(); }
+    void restore(std::span<const std::byte> bytes) override { world_->restore(bytes); }
 
 private:
     struct Place {

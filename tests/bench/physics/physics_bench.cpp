@@ -5,6 +5,8 @@
 //                     [--precision double|single] [--substeps N] [--only ENGINE] [--check FOLDER] [--summary-json FILE]
 #include "bench/physics/quality.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -32,13 +34,20 @@ double milliseconds(clockid_t clock)
 
 struct Measured {
     double median = 0, p95 = 0, wall = 0;  // ms a step
-    std::size_t memory = 0;
+    std::size_t memory = 0, heap = 0;      // bytes: as the engine counts, as the heap grew
     nlohmann::ordered_json quality;
 };
+
+std::size_t heapInUse()
+{
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
 
 Measured measure(const Scene& scene, Engine& engine)
 {
     std::vector<double> times, walls;
+    times.reserve(static_cast<std::size_t>(scene.steps)), walls.reserve(static_cast<std::size_t>(scene.steps));
     for (int i = 0; i < scene.warmUpSteps; ++i) engine.step(scene.dt);
     std::vector<Pose> before = posesOf(engine, scene.bodies.size());
     for (int i = 0; i < scene.steps; ++i) {
@@ -49,6 +58,7 @@ Measured measure(const Scene& scene, Engine& engine)
         walls.push_back(milliseconds(CLOCK_MONOTONIC) - wall);
     }
     Measured result;
+    result.heap = heapInUse();
     result.quality = qualityOf(scene, before, posesOf(engine, scene.bodies.size()));
     result.memory = engine.memory();
     std::sort(times.begin(), times.end());
@@ -70,6 +80,7 @@ nlohmann::ordered_json compare(const Scene& scene, const Options& options)
     double jet = 0;
     for (const auto& [name, make] : engines) {
         if (!options.only.empty() && options.only != name) continue;
+        const std::size_t heap = heapInUse();
         std::unique_ptr<Engine> engine;
         try {
             engine = make();
@@ -78,10 +89,12 @@ nlohmann::ordered_json compare(const Scene& scene, const Options& options)
             std::printf("%-22s %-10s %s\n", scene.name.c_str(), name.c_str(), problem.what());
             continue;
         }
-        const Measured result = measure(scene, *engine);
+        Measured result = measure(scene, *engine);
+        result.heap -= std::min(result.heap, heap);
         json[name + "_ms"] = result.median;
         json[name + "_p95_ms"] = result.p95;
         json[name + "_wall_ms"] = result.wall;
+        json[name + "_heap_bytes_a_body"] = result.heap / scene.bodies.size();
         if (name == "jet") {
             jet = result.median;
             if (result.memory > 0) json["jet_bytes_a_body"] = result.memory / scene.bodies.size();
@@ -95,7 +108,7 @@ nlohmann::ordered_json compare(const Scene& scene, const Options& options)
         } else {
             std::printf("  jet %5.2f x ", jet > 0 ? result.median / jet : 0);
         }
-        std::printf(" %s\n", result.quality.dump().c_str());
+        std::printf(" %5zu B/body  %s\n", result.heap / scene.bodies.size(), result.quality.dump().c_str());
         std::fflush(stdout);
     }
     return json;

@@ -1,0 +1,373 @@
+// Constraints of contacts: where they lie, and how they are kept up with the contacts.
+#include "solver.hpp"
+
+#include <cmath>
+
+namespace jet::physics {
+
+namespace {
+
+constexpr float kPushLengths = 4;  // overlaps are pushed out no faster than this many lengths a second
+constexpr float kSlopsPerLength = 500;
+constexpr float kPushPerSlop = kPushLengths * kSlopsPerLength;
+constexpr std::uint32_t kGroupsABlock = 16;
+constexpr std::size_t kIdleABlock = 128;
+
+}  // namespace
+
+template <class Real>
+int Solver<Real>::colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken)
+{
+    const std::uint32_t both = (movesA ? taken[a] : 0) | (movesB ? taken[b] : 0);
+    const int colour = std::min(__builtin_ctz(~both | 1U << (kColours - 1)), kColours - 1);
+    if (colour == kColours - 1) return colour;
+    if (movesA) taken[a] |= 1U << colour;
+    if (movesB) taken[b] |= 1U << colour;
+    return colour;
+}
+
+template <class Real>
+void Solver<Real>::addLane(Colour& colour, bool alone)
+{
+    if (alone) colour.count = groups(colour.count) * kWidth;
+    if (colour.count++ % kWidth != 0) return;
+    colour.contacts.emplace_back(ContactLanes<Real>{});
+    colour.frictions.emplace_back(FrictionLanes<Real>{});
+    if (bounces_) colour.bounces.emplace_back(BounceLanes<Real>{});
+    colour.touched.push_back(0), colour.touches.push_back(0);
+    colour.index.resize(colour.contacts.size() * kWidth, kNone);
+}
+
+template <class Real>
+void Solver<Real>::refresh(Collider& collider, double dt, bool resolve)
+{
+    refreshPlaced(collider, dt, resolve);
+    refreshIdle(collider, dt, resolve);
+}
+
+template <class Real>
+typename Solver<Real>::Block& Solver<Real>::blockAt(std::size_t index)
+{
+    if (index >= blocks_.size()) blocks_.resize(index + 1);
+    blocks_[index].outcomes.clear();
+    blocks_[index].hardest = 0;
+    return blocks_[index];
+}
+
+template <class Real>
+void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve)
+{
+    std::size_t count = 0;
+    for (std::uint32_t which = 0; which < colours_.size(); ++which) {
+        const auto size = static_cast<std::uint32_t>(colours_[which].contacts.size());
+        for (std::uint32_t first = 0; first < size; first += kGroupsABlock) {
+            Block& block = blockAt(count++);
+            block.colour = which, block.first = first, block.last = std::min(first + kGroupsABlock, size);
+        }
+    }
+    pool_->run(count, [&](std::size_t i) { refreshBlock(collider, dt, resolve, blocks_[i]); });
+    for (std::size_t i = 0; i < count; ++i) hardest_ = std::max(hardest_, blocks_[i].hardest);
+    // Whatever the order of the work, what follows from it is done in the order of the lanes.
+    for (std::size_t i = 0; i < count; ++i)
+        for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
+}
+
+template <class Real>
+void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Block& block)
+{
+    auto& contacts = collider.contacts();
+    const float* drift = collider.drifts();
+    const bool all = collider.anyDisturbed();
+    const Colour& colour = colours_[block.colour];
+    for (std::size_t group = block.first; group < block.last; ++group) {
+        const ContactLanes<Real>& g = colour.contacts[group];
+        const Index* index = &colour.index[group * kWidth];
+        bool due[kWidth];
+        for (std::size_t lane = 0; lane < kWidth; ++lane) {
+            due[lane] = index[lane] != kNone && (all || kPushPerSlop * (drift[g.a[lane]] + drift[g.b[lane]]) >
+                                                            static_cast<float>(g.mostPush[lane]));
+            if (!due[lane]) continue;
+            __builtin_prefetch(&contacts[index[lane]]);
+            __builtin_prefetch(reinterpret_cast<const char*>(&contacts[index[lane]]) + 64);
+        }
+        for (std::size_t lane = 0; lane < kWidth; ++lane) {
+            if (!due[lane]) continue;
+            RigidContact& c = contacts[index[lane]];
+            if (!collider.due(c)) continue;
+            const Place place = placeOf(static_cast<int>(block.colour), group * kWidth + lane);
+            fetch(c, place);
+            const bool kept = collider.update(c, dt);
+            if (kept && c.count > 0 && c.resolve && resolve) {
+                write(collider, c, place);
+                block.hardest = std::max(block.hardest, collider.hitSpeed(c));
+            } else {
+                block.outcomes.push_back({index[lane], kept});
+            }
+        }
+    }
+}
+
+template <class Real>
+void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
+{
+    auto& contacts = collider.contacts();
+    const auto& places = collider.places();
+    idleDue_.clear();
+    for (Index contact = 0; contact < contacts.size(); ++contact)
+        if (places[contact] == kIdle && collider.due(contacts[contact])) idleDue_.push_back(contact);
+    const std::size_t blocks = (idleDue_.size() + kIdleABlock - 1) / kIdleABlock;
+    for (std::size_t i = 0; i < blocks; ++i) blockAt(i);
+    pool_->run(blocks, [&](std::size_t i) {
+        const std::size_t last = std::min(idleDue_.size(), (i + 1) * kIdleABlock);
+        for (std::size_t at = i * kIdleABlock; at < last; ++at) {
+            RigidContact& c = contacts[idleDue_[at]];
+            const bool kept = collider.update(c, dt);
+            if (!kept || c.touching || c.count > 0) blocks_[i].outcomes.push_back({idleDue_[at], kept});
+        }
+    });
+    for (std::size_t i = 0; i < blocks; ++i)
+        for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
+}
+
+template <class Real>
+void Solver<Real>::change(RigidContact& c, bool touching)
+{
+    if (c.touching == touching) return;
+    c.touching = touching;
+    changes_.push_back({c.bodyA, c.bodyB, touching, c.stepImpulse});
+}
+
+template <class Real>
+void Solver<Real>::settle(Collider& collider, const Outcome& outcome, bool resolve)
+{
+    RigidContact& c = collider.contacts()[outcome.contact];
+    const bool placed = collider.places()[outcome.contact] != kIdle;
+    const bool pushes = c.resolve && resolve;
+    if (outcome.kept && c.count > 0 && pushes) {
+        if (!placed) admit(collider, outcome.contact);
+        return;
+    }
+    if (placed) remove(collider, outcome.contact);
+    c.stepImpulse = 0;
+    change(c, outcome.kept && c.nearest() <= c.slop);
+    if (!outcome.kept) collider.forget(outcome.contact);
+}
+
+template <class Real>
+void Solver<Real>::admit(Collider& collider, Index contact)
+{
+    const RigidContact& c = collider.contacts()[contact];
+    const auto& bodies = collider.bodies();
+    const int which = colourOf(c.bodyA, bodies[c.bodyA].moves, c.bodyB, bodies[c.bodyB].moves, taken_);
+    Colour& colour = colours_[static_cast<std::size_t>(which)];
+    if (c.restitution > 0 && !bounces_) {
+        bounces_ = true;
+        for (Colour& each : colours_) each.bounces.resize(each.contacts.size(), BounceLanes<Real>{});
+    }
+    addLane(colour, which == kColours - 1);
+    const std::size_t at = colour.count - 1;
+    colour.index[at] = contact;
+    if (c.touching) colour.touched[at / kWidth] |= 1U << (at % kWidth);
+    const Place place = placeOf(which, at);
+    collider.places()[contact] = place;
+    write(collider, c, place);
+    hardest_ = std::max(hardest_, collider.hitSpeed(c));
+}
+
+template <class Real>
+void Solver<Real>::moveLane(Collider& collider, Colour& colour, std::size_t from, std::size_t to)
+{
+    const auto move = [&](Lanes<Real>& source, Lanes<Real>& target) { target[to % kWidth] = source[from % kWidth]; };
+    ContactLanes<Real>&g = colour.contacts[from / kWidth], &h = colour.contacts[to / kWidth];
+    FrictionLanes<Real>&f = colour.frictions[from / kWidth], &e = colour.frictions[to / kWidth];
+    h.a[to % kWidth] = g.a[from % kWidth], h.b[to % kWidth] = g.b[from % kWidth];
+    move(g.normalX, h.normalX), move(g.normalY, h.normalY), move(g.mostPush, h.mostPush), move(f.friction, e.friction);
+    for (int k = 0; k < 2; ++k) {
+        auto &p = g.points[k], &q = h.points[k];
+        move(p.leverA, q.leverA), move(p.leverB, q.leverB), move(p.separation, q.separation);
+        move(p.mass, q.mass), move(p.impulse, q.impulse);
+        auto &s = f.points[k], &t = e.points[k];
+        move(s.leverA, t.leverA), move(s.leverB, t.leverB), move(s.mass, t.mass), move(s.impulse, t.impulse);
+    }
+    if (bounces_) {
+        BounceLanes<Real>&r = colour.bounces[from / kWidth], &s = colour.bounces[to / kWidth];
+        move(r.restitution, s.restitution), move(r.most[0], s.most[0]), move(r.most[1], s.most[1]);
+    }
+    const std::uint32_t bit = colour.touched[from / kWidth] >> (from % kWidth) & 1U;
+    colour.touched[to / kWidth] &= ~(1U << (to % kWidth));
+    colour.touched[to / kWidth] |= bit << (to % kWidth);
+    const Index contact = colour.index[from];
+    colour.index[to] = contact;
+    const auto which = static_cast<int>(&colour - colours_.data());
+    if (contact != kNone) collider.places()[contact] = placeOf(which, to);
+}
+
+/// The last lane takes its place, and is wiped out where it was.
+template <class Real>
+void Solver<Real>::remove(Collider& collider, Index contact)
+{
+    const Place place = collider.places()[contact];
+    const int which = static_cast<int>(place >> kLaneBits);
+    Colour& colour = colourAt(place);
+    const RigidContact& c = collider.contacts()[contact];
+    fetch(collider.contacts()[contact], place);
+    if (which < kColours - 1)
+        for (const Index body : {c.bodyA, c.bodyB}) taken_[body] &= ~(1U << which);
+    const std::size_t last = colour.count - 1, at = laneAt(place);
+    if (at != last) moveLane(collider, colour, last, at);
+    collider.places()[contact] = kIdle;
+    const bool alone = which == kColours - 1;
+    if (last % kWidth == 0) {
+        colour.contacts.pop_back(), colour.frictions.pop_back(), colour.touched.pop_back(), colour.touches.pop_back();
+        if (bounces_) colour.bounces.pop_back();
+        colour.index.resize(colour.contacts.size() * kWidth);
+        colour.count = alone && last > 0 ? last - kWidth + 1 : last;
+        return;
+    }
+    --colour.count;
+    colour.index[last] = kNone;
+    colour.touched[last / kWidth] &= ~(1U << (last % kWidth));
+    const std::size_t lane = last % kWidth;
+    const auto clear = [lane](Lanes<Real>& lanes) { lanes[lane] = 0; };
+    ContactLanes<Real>& g = colour.contacts[last / kWidth];
+    FrictionLanes<Real>& f = colour.frictions[last / kWidth];
+    g.a[lane] = g.b[lane] = 0;
+    clear(g.normalX), clear(g.normalY), clear(g.mostPush), clear(f.friction);
+    for (int k = 0; k < 2; ++k) {
+        clear(g.points[k].leverA), clear(g.points[k].leverB), clear(g.points[k].separation);
+        clear(g.points[k].mass), clear(g.points[k].impulse);
+        clear(f.points[k].leverA), clear(f.points[k].leverB), clear(f.points[k].mass), clear(f.points[k].impulse);
+    }
+    if (!bounces_) return;
+    BounceLanes<Real>& r = colour.bounces[last / kWidth];
+    clear(r.restitution), clear(r.most[0]), clear(r.most[1]);
+}
+
+/// Frozen until the contact is looked at again: normal, levers and masses.
+template <class Real>
+void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place place)
+{
+    const Pose &poseA = collider.poses()[c.bodyA], &poseB = collider.poses()[c.bodyB];
+    const BodyState<Real>&a = states_[c.bodyA], &b = states_[c.bodyB];
+    Colour& colour = colourAt(place);
+    const std::size_t group = laneAt(place) / kWidth, lane = laneAt(place) % kWidth;
+    ContactLanes<Real>& g = colour.contacts[group];
+    FrictionLanes<Real>& f = colour.frictions[group];
+    const auto shown = [&](Index body) {
+        const RigidBody& is = collider.bodies()[body];
+        return is.moves || is.kinematic ? static_cast<std::int32_t>(body) : 0;
+    };
+    g.a[lane] = shown(c.bodyA), g.b[lane] = shown(c.bodyB);
+    const Vec2f n = turned(poseA.turn, c.normal);
+    const Real nx = n.x, ny = n.y;
+    g.normalX[lane] = nx, g.normalY[lane] = ny;
+    g.mostPush[lane] = kPushPerSlop * c.slop;
+    f.friction[lane] = c.friction;
+    if (bounces_) colour.bounces[group].restitution[lane] = c.restitution;
+    const Real inverse = a.invMass + b.invMass;
+    for (int k = 0; k < 2; ++k) {
+        auto& p = g.points[k];
+        auto& q = f.points[k];
+        if (k >= c.count) {
+            p.leverA[lane] = p.leverB[lane] = q.leverA[lane] = q.leverB[lane] = 0;
+            p.separation[lane] = p.mass[lane] = q.mass[lane] = p.impulse[lane] = q.impulse[lane] = 0;
+            continue;
+        }
+        // Both arms end in one place, half way between the surfaces.
+        // Far ones, of foreseen hits, act on the surfaces.
+        const Vec2f half = (c.separation[k] < 20 * c.slop ? 0.5F * c.separation[k] : 0.0F) * n;
+        const Vec2f armA = turned(poseA.turn, c.onA[k]) + half, armB = turned(poseB.turn, c.onB[k]) - half;
+        const Real leverA = armA.x * ny - armA.y * nx, leverB = armB.x * ny - armB.y * nx;
+        const Real slideA = armA.x * nx + armA.y * ny, slideB = armB.x * nx + armB.y * ny;
+        p.leverA[lane] = leverA, p.leverB[lane] = leverB;
+        q.leverA[lane] = slideA, q.leverB[lane] = slideB;
+        p.separation[lane] = c.separation[k] + c.slop;
+        const Real k1 = inverse + a.invInertia * leverA * leverA + b.invInertia * leverB * leverB;
+        const Real k2 = inverse + a.invInertia * slideA * slideA + b.invInertia * slideB * slideB;
+        p.mass[lane] = k1 > 0 ? 1 / k1 : 0, q.mass[lane] = k2 > 0 ? 1 / k2 : 0;
+        p.impulse[lane] = c.impulse[k], q.impulse[lane] = c.tangentImpulse[k];
+    }
+}
+
+template <class Real>
+void Solver<Real>::fetch(RigidContact& c, Place place) const
+{
+    const Colour& colour = colourAt(place);
+    const std::size_t group = laneAt(place) / kWidth, lane = laneAt(place) % kWidth;
+    const ContactLanes<Real>& g = colour.contacts[group];
+    c.stepImpulse = 0;
+    for (int k = 0; k < c.count; ++k) {
+        c.separation[k] = static_cast<float>(g.points[k].separation[lane]) - c.slop;
+        c.impulse[k] = static_cast<float>(g.points[k].impulse[lane]);
+        c.tangentImpulse[k] = static_cast<float>(colour.frictions[group].points[k].impulse[lane]);
+        c.stepImpulse += bounces_ ? static_cast<float>(colour.bounces[group].most[k][lane]) : c.impulse[k];
+    }
+}
+
+template <class Real>
+void Solver<Real>::release(Collider& collider)
+{
+    auto& places = collider.places();
+    for (Index contact = 0; contact < places.size(); ++contact) {
+        if (places[contact] >= kFree) continue;
+        RigidContact& c = collider.contacts()[contact];
+        fetch(c, places[contact]);
+        c.due = true;
+        places[contact] = kIdle;
+    }
+    for (Colour& colour : colours_) {
+        colour.contacts.clear(), colour.frictions.clear(), colour.bounces.clear(), colour.index.clear();
+        colour.touched.clear(), colour.touches.clear();
+        colour.count = 0;
+    }
+    std::fill(taken_.begin(), taken_.end(), 0U);
+    bounces_ = false;
+}
+
+template <class Real>
+bool Solver<Real>::holdsContacts() const
+{
+    for (const Colour& colour : colours_)
+        if (colour.count > 0) return true;
+    return false;
+}
+
+/// Makes room as the places of restored contacts say.
+template <class Real>
+void Solver<Real>::place(const Collider& collider)
+{
+    const bool bounces = bounces_;
+    if (colours_.empty()) colours_.resize(kColours), jointColours_.resize(kColours);
+    for (Colour& colour : colours_) {
+        colour.contacts.clear(), colour.frictions.clear(), colour.bounces.clear(), colour.index.clear();
+        colour.touched.clear(), colour.touches.clear();
+        colour.count = 0;
+    }
+    bounces_ = bounces;
+    taken_.assign(collider.bodies().size(), 0);
+    const auto& places = collider.places();
+    for (Index contact = 0; contact < places.size(); ++contact) {
+        if (places[contact] >= kFree) continue;
+        const auto which = static_cast<int>(places[contact] >> kLaneBits);
+        const std::size_t at = laneAt(places[contact]);
+        if (which >= kColours || at > 2 * kWidth * places.size()) RestoreArchive::fail();
+        Colour& colour = colours_[static_cast<std::size_t>(which)];
+        const RigidContact& c = collider.contacts()[contact];
+        colour.count = std::max(colour.count, at + 1);
+        const std::size_t size = groups(colour.count);
+        if (colour.contacts.size() < size) {
+            colour.contacts.resize(size, ContactLanes<Real>{}), colour.frictions.resize(size, FrictionLanes<Real>{});
+            if (bounces_) colour.bounces.resize(size, BounceLanes<Real>{});
+            colour.touched.resize(size, 0), colour.touches.resize(size, 0), colour.index.resize(size * kWidth, kNone);
+        }
+        if (c.touching) colour.touched[at / kWidth] |= 1U << (at % kWidth);
+        if (which == kColours - 1) continue;
+        for (const Index body : {c.bodyA, c.bodyB})
+            if (collider.bodies()[body].moves) taken_[body] |= 1U << which;
+    }
+}
+
+template class Solver<float>;
+template class Solver<double>;
+
+}  // namespace jet::physics

@@ -1,0 +1,138 @@
+// Fast bodies: what is going to be hit within the coming step, and where they are stopped.
+#include "collider.hpp"
+
+#include <cmath>
+
+namespace jet::physics {
+
+namespace {
+
+constexpr float kFast = 0.5F;  // lengths a step: faster pairs are foreseen by their time of impact
+
+float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
+
+}  // namespace
+
+/// Fast pairs get the point at which they will touch, not the one where they are nearest now: what flies past a corner
+/// is not caught by it.
+void Collider::foresee(RigidContact& c, const Relative& at, double dt) const
+{
+    const Part &a = parts_[c.partA], &b = parts_[c.partB];
+    Pose poseA = poses_[c.bodyA], poseB = poses_[c.bodyB];
+    const float hit = timeOfImpact(a, b, poseA, poseB, dt, c.slop);
+    if (hit > 1) return;
+    const auto moveOn = [&](Pose& pose) {
+        const float t = hit * static_cast<float>(dt);
+        pose.x += static_cast<double>(pose.velocityX) * t, pose.y += static_cast<double>(pose.velocityY) * t;
+        const Vec2 turn = direction(static_cast<double>(pose.omega) * t);
+        pose.turn = turned({static_cast<float>(turn.x()), static_cast<float>(turn.y())}, pose.turn);
+    };
+    moveOn(poseA), moveOn(poseB);
+    Relative then;
+    then.move = turnedBack(poseA.turn, {static_cast<float>(poseB.x - poseA.x), static_cast<float>(poseB.y - poseA.y)});
+    then.turn = turnedBack(poseA.turn, poseB.turn);
+    Manifold m = physics::collide(a, b, then, 8 * c.slop);
+    m.normal = turnedBack(poses_[c.bodyA].turn, turned(poseA.turn, m.normal));
+    for (int i = 0; i < m.count; ++i)
+        m.points[i].separation = dot(m.normal, at.move + turned(at.turn, m.points[i].onB) - m.points[i].onA);
+    renew(c, m, at, 0);
+    c.foreseen = c.due = c.count > 0;  // never reused
+}
+
+float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& poseB, double dt, float target)
+{
+    const float dtf = static_cast<float>(dt);
+    const Vec2f velocity{poseB.velocityX - poseA.velocityX, poseB.velocityY - poseA.velocityY};
+    // As seen from the part that reaches less, if the other turns little.
+    const bool fromA = a.reach <= b.reach;
+    const float swing = fromA ? poseB.omega : poseA.omega;
+    const bool carried = std::abs(swing) * dtf < 0.1F;
+    const float turning = carried ? std::abs(poseB.omega - poseA.omega) * std::min(a.reach, b.reach)
+                                  : std::abs(poseA.omega) * a.reach + std::abs(poseB.omega) * b.reach;
+    float t = 0;
+    for (int round = 0; round < 40; ++round) {
+        const Vec2 turnA = direction(static_cast<double>(poseA.omega) * t),
+                   turnB = direction(static_cast<double>(poseB.omega) * t);
+        const Vec2f qA = turned({static_cast<float>(turnA.x()), static_cast<float>(turnA.y())}, poseA.turn);
+        const Vec2f qB = turned({static_cast<float>(turnB.x()), static_cast<float>(turnB.y())}, poseB.turn);
+        const Vec2f apart{static_cast<float>(poseB.x - poseA.x + static_cast<double>(velocity.x) * t),
+                          static_cast<float>(poseB.y - poseA.y + static_cast<double>(velocity.y) * t)};
+        const Distance d = distanceOf(a, b, {turnedBack(qA, apart), turnedBack(qA, qB)});
+        if (d.distance <= target) return t / dtf;
+        const Vec2f seen = carried ? velocity + swing * Vec2f{apart.y, -apart.x} : velocity;
+        const float closing = -dot(turned(qA, d.normal), seen) + turning;
+        if (!(closing * dtf > 1e-9F * d.distance)) return 2;
+        t += (d.distance - target + 0.5F * std::abs(target)) / closing;  // a little beyond, to end
+        if (t > dtf) return 2;
+    }
+    return t / dtf;
+}
+
+bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt)
+{
+    if (!fast_) return false;
+    bool grew = false;
+    for (Index i = 0; i < contacts_.size(); ++i) {
+        const RigidContact& c = contacts_[i];
+        if (places_[i] == kFree || !c.resolve || c.count == 0) continue;
+        const float surprised = std::max(surprise_[c.bodyA], surprise_[c.bodyB]);
+        if (!c.foreseen && surprised == 0) continue;
+        const float travel = std::max(c.foreseen ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
+        const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
+        if (!(a + b > 0)) continue;
+        const auto gain = [&](double share) {
+            return (1 + c.restitution) * travel * static_cast<float>(share / (a + b));
+        };
+        grew |= surprise(c.bodyA, gain(a), dt);
+        grew |= surprise(c.bodyB, gain(b), dt);
+    }
+    if (!grew) return false;
+    for (Index i = 1; i < bodies_.size(); ++i)
+        if (surprise_[i] == 0) drift_[i] = 0;  // has been looked at
+    findPairs(settings);
+    return true;
+}
+
+/// The body may be carried `gain` units farther in this step. False: that is nothing new.
+bool Collider::surprise(Index index, float gain, double dt)
+{
+    const RigidBody& body = bodies_[index];
+    if (!body.moves || gain <= 1.001F * surprise_[index] || gain < 0.5F * kFast * body.finest) return false;
+    if (poses_[index].travel >= gain) return false;  // is as fast itself
+    surprised_ = true;
+    surprise_[index] = gain;
+    drift_[index] = 1e30F;
+    for (Index p = 0; p < body.partCount; ++p)
+        fitBox(body.firstPart + p, poses_[index], std::max(room_[index], 0.0F) + gain, dt);
+    sweep_.noteMoves();
+    room_[index] = -1;  // fitted closely again in the next step
+    resting_[index].x = 1e300;
+    return true;
+}
+
+void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves,
+                              const std::vector<double>& turns, double dt) const
+{
+    allowed.assign(bodies_.size(), 1.0F);
+    for (Index i = 0; i < contacts_.size(); ++i) {
+        const RigidContact& c = contacts_[i];
+        if (places_[i] == kFree || !c.resolve) continue;
+        const Vec2 relativeMove = moves[c.bodyB] - moves[c.bodyA];
+        const float thinner = kFast * std::min(parts_[c.partA].thickness, parts_[c.partB].thickness);
+        if (!(relativeMove.squaredNorm() > thinner * thinner)) continue;
+        if (c.nearest() <= 0) continue;  // is held by its points
+        Pose a = poses_[c.bodyA], b = poses_[c.bodyB];
+        const auto actual = [&](Pose& pose, Index body) {
+            pose.velocityX = clamped(moves[body].x() / dt), pose.velocityY = clamped(moves[body].y() / dt);
+            pose.omega = clamped(turns[body] / dt);
+        };
+        actual(a, c.bodyA), actual(b, c.bodyB);
+        // A little deeper than contacts come by themselves.
+        const float hit = timeOfImpact(parts_[c.partA], parts_[c.partB], a, b, dt, -2 * c.slop);
+        if (hit > 1 || hit <= 0) continue;  // lies in it already: to be pushed out, not to be held
+        for (const Index body : {c.bodyA, c.bodyB})
+            if (bodies_[body].moves) allowed[body] = std::min(allowed[body], hit);
+    }
+}
+
+}  // namespace jet::physics

@@ -1,0 +1,122 @@
+// The points of a pair: kept while its bodies hardly move against each other, else found anew.
+#include "collider.hpp"
+
+#include <cmath>
+
+namespace jet::physics {
+
+namespace {
+
+constexpr float kSpeculative = 6;  // slops: nearer than this a pair gets points even without closing speed; quiet
+                                   // bodies may come two of them nearer before the pair is looked at again
+constexpr float kReuseMove = 1.0F, kReuseTurn = 0.01F;  // slops, radians: points are kept
+constexpr float kFast = 0.5F;  // lengths a step: faster pairs are foreseen by their time of impact
+
+}  // namespace
+
+Relative Collider::relative(Index bodyA, Index bodyB) const
+{
+    const Pose &a = poses_[bodyA], &b = poses_[bodyB];
+    Relative at;
+    at.move = turnedBack(a.turn, {static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)});
+    at.turn = turnedBack(a.turn, b.turn);
+    return at;
+}
+
+/// How fast points of the two may come together at most: as seen from the body that reaches less, since a long one
+/// that turns is fast only far away.
+float Collider::closingSpeed(const RigidContact& c) const
+{
+    const Pose &a = poses_[c.bodyA], &b = poses_[c.bodyB];
+    const bool fromA = bodies_[c.bodyA].reach <= bodies_[c.bodyB].reach;
+    const Vec2f arm{static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)};
+    const float omega = fromA ? b.omega : a.omega;
+    const float dx = b.velocityX - a.velocityX + omega * arm.y, dy = b.velocityY - a.velocityY - omega * arm.x;
+    const float reach = fromA ? bodies_[c.bodyA].reach : bodies_[c.bodyB].reach;
+    return std::sqrt(dx * dx + dy * dy) + std::abs(b.omega - a.omega) * reach;
+}
+
+bool Collider::update(RigidContact& c, double dt) const
+{
+    c.due = false;
+    if (!sweep_.box(c.partA).meets(sweep_.box(c.partB))) return false;
+    const Part &a = parts_[c.partA], &b = parts_[c.partB];
+    const Relative at = relative(c.bodyA, c.bodyB);
+    const float shorter = std::min(a.length, b.length);
+    const float travel = closingSpeed(c) * static_cast<float>(dt);
+    const float reach =
+        kSpeculative * c.slop + std::min(travel, kFast * shorter) + surprise_[c.bodyA] + surprise_[c.bodyB];
+    if (!reuse(c, at, reach)) {
+        if ((travel > 0.1F * shorter || c.count == 0) && apart(c.partA, c.partB) && apart(c.partB, c.partA))
+            return false;
+        renew(c, physics::collide(a, b, at, reach), at, reach);
+        if (c.count > 0 && c.nearest() > 0 && travel > kFast * shorter) c.count = 0;
+        if (c.count == 0 && c.resolve && travel > kFast * shorter) foresee(c, at, dt);
+        decideSide(c);
+    }
+    return true;
+}
+
+float Collider::hitSpeed(const RigidContact& c) const
+{
+    const Pose &poseA = poses_[c.bodyA], &poseB = poses_[c.bodyB];
+    const float dx = poseB.velocityX - poseA.velocityX, dy = poseB.velocityY - poseA.velocityY;
+    const Vec2f n = turned(poseA.turn, c.normal), armA = turned(poseA.turn, c.onA[0]),
+                armB = turned(poseB.turn, c.onB[0]);
+    const float approach = -(n.x * dx + n.y * dy + poseB.omega * cross(armB, n) - poseA.omega * cross(armA, n));
+    return approach / std::min(parts_[c.partA].length, parts_[c.partB].length);
+}
+
+/// While two parts hardly move against each other, the points stay on their surfaces and only the separation changes.
+bool Collider::reuse(RigidContact& c, const Relative& at, float reach) const
+{
+    const Vec2f moved = at.move - c.at.move;
+    const float most = kReuseMove * c.slop;
+    if (dot(moved, moved) > most * most || std::abs(cross(c.at.turn, at.turn)) > kReuseTurn ||
+        dot(c.at.turn, at.turn) < 0 || reach > c.reach + c.slop || c.passing || c.foreseen)
+        return false;
+    for (int i = 0; i < c.count; ++i) c.separation[i] = dot(c.normal, at.move + turned(at.turn, c.onB[i]) - c.onA[i]);
+    return true;
+}
+
+/// Impulses go on with the features they belong to.
+void Collider::renew(RigidContact& c, const Manifold& m, const Relative& at, float reach) const
+{
+    const int count = c.count;
+    const std::uint16_t ids[2] = {c.ids[0], c.ids[1]};
+    const float impulses[2] = {c.impulse[0], c.impulse[1]};
+    const float tangents[2] = {c.tangentImpulse[0], c.tangentImpulse[1]};
+    c.at = at, c.reach = reach;
+    c.foreseen = false;
+    c.count = static_cast<std::uint8_t>(m.count);
+    c.normal = m.normal;
+    for (int i = 0; i < m.count; ++i) {
+        const ManifoldPoint& p = m.points[i];
+        c.onA[i] = p.onA, c.onB[i] = p.onB, c.ids[i] = p.id, c.separation[i] = p.separation;
+        c.impulse[i] = c.tangentImpulse[i] = 0;
+        for (int k = 0; k < count; ++k)
+            if (ids[k] == p.id) c.impulse[i] = impulses[k], c.tangentImpulse[i] = tangents[k];
+    }
+}
+
+/// A platform holds what comes against its direction, and lets pass what comes from behind until both are apart.
+void Collider::decideSide(RigidContact& c) const
+{
+    const RigidBody &a = bodies_[c.bodyA], &b = bodies_[c.bodyB];
+    if (a.oneSidedX == 0 && a.oneSidedY == 0 && b.oneSidedX == 0 && b.oneSidedY == 0) return;
+    if (c.count == 0) {
+        c.passing = false;
+        c.resolve = !a.sensor && !b.sensor;
+        return;
+    }
+    const Vec2f normal = turned(poses_[c.bodyA].turn, c.normal);
+    const auto wrong = [&](const RigidBody& body, Vec2f outward) {
+        return (body.oneSidedX != 0 || body.oneSidedY != 0) &&
+               body.oneSidedX * outward.x + body.oneSidedY * outward.y < 0.5F;
+    };
+    const bool deep = c.nearest() < -8 * c.slop && !c.touching;
+    if (wrong(a, normal) || wrong(b, -normal) || deep) c.passing = true;
+    c.resolve = !c.passing && !a.sensor && !b.sensor;
+}
+
+}  // namespace jet::physics

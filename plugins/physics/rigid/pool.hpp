@@ -1,0 +1,74 @@
+// The threads of one world: blocks of a loop are taken by whoever is free. Whoever comes late finds nothing left to do,
+// so a machine that is busy with other things costs nothing but the help.
+//
+// What a block does must not depend on who does it or when; then results are the same for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+namespace jet::physics {
+
+class Pool {
+public:
+    Pool() = default;
+    ~Pool();
+    Pool(const Pool&) = delete;
+    Pool& operator=(const Pool&) = delete;
+
+    /// Of run(), with the caller's. Threads are started when they are first needed.
+    void setThreads(int threads);
+    int threads() const { return threads_; }
+
+    /// Calls work(block) for each block below `blocks`, at once and in any order; returns when all is done.
+    template <class Work>
+    void run(std::size_t blocks, Work&& work)
+    {
+        if (threads_ <= 1 || blocks <= 1) {
+            for (std::size_t block = 0; block < blocks; ++block) work(block);
+            return;
+        }
+        fork([](void* what, std::size_t block) { (*static_cast<std::remove_reference_t<Work>*>(what))(block); }, &work,
+             blocks);
+    }
+    /// The same for ranges [first, last) of `count` things, `size` of them a block.
+    template <class Work>
+    void ranges(std::size_t count, std::size_t size, Work&& work)
+    {
+        if (threads_ <= 1 || count <= size) {
+            if (count > 0) work(std::size_t{0}, count);
+            return;
+        }
+        run((count + size - 1) / size,
+            [&](std::size_t block) { work(block * size, std::min(count, (block + 1) * size)); });
+    }
+
+private:
+    using Call = void (*)(void*, std::size_t);
+    void fork(Call, void* what, std::size_t blocks);
+    void start();
+    void stop();
+    void serve();
+    bool take(std::size_t& block);
+
+    int threads_ = 1;
+    std::vector<std::thread> workers_;
+    // The task: written before the ticket, read by those who have got a block of it.
+    Call call_ = nullptr;
+    void* what_ = nullptr;
+    std::atomic<std::uint64_t> ticket_{0};  // number of the task, blocks left to take
+    std::atomic<std::size_t> done_{0};      // blocks
+    std::atomic<int> sleeping_{0};
+    std::atomic<bool> stopping_{false};
+    std::mutex mutex_;
+    std::condition_variable wake_;
+};
+
+}  // namespace jet::physics

@@ -1,0 +1,139 @@
+// jet-physics-check: what the engine promises of the benchmark's scenes beside speed.
+//
+//   jet-physics-check hash [SCENE...]           the state's hash after 240 steps, over threads and instruction sets
+//   jet-physics-check snapshot [SCENE...]       saved at step 60: the same future in the same world and in a new one
+//   jet-physics-check soak MINUTES [SCENE...]   simulated time; nothing may become NaN, escape or take more memory
+//
+// A scene is a name of jet-bench-physics or a file.
+#include "bench/physics/engines.hpp"
+
+#include <malloc.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace jet::bench {
+
+namespace {
+
+constexpr int kHashSteps = 240, kSavedAt = 60, kFuture = 300;
+
+Scene sceneOf(const std::string& name) { return std::filesystem::exists(name) ? loadScene(name) : makeScene(name); }
+
+void advance(Engine& engine, const Scene& scene, int steps)
+{
+    for (int i = 0; i < steps; ++i) engine.step(scene.dt);
+}
+
+int hashes(const Scene& scene)
+{
+    JetOptions plain;
+    std::vector<JetOptions> variants(5, plain);
+    variants[1].threads = 2, variants[2].threads = 4, variants[3].simd = "sse2", variants[4].simd = "avx2";
+    variants[4].threads = 3;
+    std::uint64_t first = 0;
+    int differing = 0;
+    for (const JetOptions& options : variants) {
+        const auto engine = makeJet(scene, options);
+        advance(*engine, scene, kHashSteps);
+        if (first == 0) first = engine->hash();
+        if (engine->hash() == first) continue;
+        std::fprintf(stderr, "%s: other bits with %d threads, simd \"%s\"\n", scene.name.c_str(), options.threads,
+                     options.simd.c_str());
+        ++differing;
+    }
+    std::printf("%-22s %016llx\n", scene.name.c_str(), static_cast<unsigned long long>(first));
+    return differing;
+}
+
+int snapshots(const Scene& scene)
+{
+    const auto engine = makeJet(scene, {}), fresh = makeJet(scene, {});
+    advance(*engine, scene, kSavedAt);
+    const std::vector<std::byte> saved = engine->save();
+    std::vector<std::uint64_t> future;
+    for (int i = 0; i < kFuture; ++i) {
+        engine->step(scene.dt);
+        future.push_back(engine->hash());
+    }
+    engine->restore(saved);
+    fresh->restore(saved);
+    for (int i = 0; i < kFuture; ++i) {
+        engine->step(scene.dt);
+        fresh->step(scene.dt);
+        const bool same = engine->hash() == future[static_cast<std::size_t>(i)],
+                   equal = fresh->hash() == future[static_cast<std::size_t>(i)];
+        if (same && equal) continue;
+        std::printf("%-22s differs %d steps after restoring into %s\n", scene.name.c_str(), i + 1,
+                    same ? "a new world" : "the same world");
+        return 1;
+    }
+    std::printf("%-22s same future, in the same world and in a new one; %zu bytes\n", scene.name.c_str(), saved.size());
+    return 0;
+}
+
+std::size_t heapInUse()
+{
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+int soak(const Scene& scene, double minutes)
+{
+    const auto engine = makeJet(scene, {});
+    const int steps = static_cast<int>(std::lround(60 * minutes / scene.dt)), tenth = std::max(steps / 10, 1);
+    std::size_t early = 0, late = 0;
+    for (int i = 1; i <= steps; ++i) {
+        engine->step(scene.dt);
+        if (i % tenth != 0) continue;
+        std::size_t bad = 0, out = 0;
+        for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+            const Pose pose = engine->pose(body);
+            bad += !std::isfinite(pose.position.x + pose.position.y + pose.angle);
+            out += pose.position.x < scene.bounds[0] || pose.position.y < scene.bounds[1] ||
+                   pose.position.x > scene.bounds[2];
+        }
+        late = heapInUse();
+        if (early == 0) early = late;
+        std::printf("%-22s %6.1f min  not finite %zu  escaped %zu  heap %.2f MB\n", scene.name.c_str(),
+                    i * scene.dt / 60, bad, out, 1e-6 * static_cast<double>(late));
+        std::fflush(stdout);
+        if (bad + out > 0) return 1;
+    }
+    // A tenth of the time is warm-up.
+    return static_cast<double>(late) > 1.02 * static_cast<double>(early) + 65536 ? 1 : 0;
+}
+
+int run(int argc, char** argv)
+{
+    const std::string mode = argc > 1 ? argv[1] : "";
+    if (mode != "hash" && mode != "snapshot" && mode != "soak")
+        throw std::runtime_error("usage: jet-physics-check hash|snapshot|soak MINUTES [SCENE...]");
+    int next = 2;
+    const double minutes = mode == "soak" ? std::stod(next < argc ? argv[next++] : "10") : 0;
+    std::vector<std::string> names(argv + next, argv + argc);
+    if (names.empty()) names = sceneNames();
+    int failed = 0;
+    for (const std::string& name : names) {
+        const Scene scene = sceneOf(name);
+        failed += mode == "hash" ? hashes(scene) : mode == "snapshot" ? snapshots(scene) : soak(scene, minutes);
+    }
+    return failed > 0;
+}
+
+}  // namespace
+
+}  // namespace jet::bench
+
+int main(int argc, char** argv)
+{
+    try {
+        return jet::bench::run(argc, argv);
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "jet-physics-check: error: %s\n", problem.what());
+        return 2;
+    }
+}
