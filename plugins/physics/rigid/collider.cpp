@@ -11,6 +11,7 @@ namespace {
 constexpr float kSlop = 0.002F;  // of the length of the smaller part
 constexpr float kRoom = 0.12F;   // of the typical length: margin of the boxes
 constexpr float kRoomOfLength = 0.05F;
+constexpr float kAhead = 2;     // steps
 constexpr float kQuiet = 0.5F;  // slops: within this far of where it was a body counts as still
 constexpr float kMoved = 1e30F;
 constexpr std::size_t kBodiesABlock = 512;
@@ -138,6 +139,8 @@ bool Collider::fitBoxes(Index i, double dt)
         const float turn = std::abs(cross(old.turn, pose.turn)) + (dot(old.turn, pose.turn) < 0 ? 2.0F : 0.0F);
         const float left = room_[i] - 1.2F * turn * bodies_[i].reach - pose.travel;
         if (left >= 0 && dx * dx + dy * dy <= left * left) return false;
+        const float farther = left + ahead(i);
+        if (farther >= 0 && dx * dx + dy * dy <= farther * farther && keepsWithin(i, dt)) return false;
     }
     fitted_[i] = pose;
     // A long body that turns would have to be fitted in each step.
@@ -146,7 +149,36 @@ bool Collider::fitBoxes(Index i, double dt)
     return true;
 }
 
+/// Units the boxes reach farther in the direction the body moved in when they were fitted, at most.
+float Collider::ahead(Index body) const { return std::min(kAhead * fitted_[body].travel, 0.7F * typical_); }
+
+/// Are the body's parts, with what they move in this step, still in their boxes?
+bool Collider::keepsWithin(Index body, double dt) const
+{
+    for (Index p = 0; p < bodies_[body].partCount; ++p) {
+        const Index part = bodies_[body].firstPart + p;
+        const FatBox needed = boxOf(part, poses_[body], 0, dt);
+        const FatBox& box = sweep_.box(part);
+        if (needed.minX < box.minX || needed.minY < box.minY || needed.maxX > box.maxX || needed.maxY > box.maxY)
+            return false;
+    }
+    return true;
+}
+
 void Collider::fitBox(Index index, const Pose& pose, float room, double dt)
+{
+    FatBox& box = sweep_.box(index);
+    box = boxOf(index, pose, room, dt);
+    // What moves will be there next.
+    const float aheadX = kAhead * pose.velocityX * static_cast<float>(dt),
+                aheadY = kAhead * pose.velocityY * static_cast<float>(dt);
+    const float most = 0.5F * typical_;
+    box.minX += std::clamp(aheadX, -most, 0.0F), box.maxX += std::clamp(aheadX, 0.0F, most);
+    box.minY += std::clamp(aheadY, -most, 0.0F), box.maxY += std::clamp(aheadY, 0.0F, most);
+    sweep_.markMoved(index);
+}
+
+FatBox Collider::boxOf(Index index, const Pose& pose, float room, double dt) const
 {
     const Part& part = parts_[index];
     float minX = 3e38F, minY = 3e38F, maxX = -3e38F, maxY = -3e38F;
@@ -160,12 +192,12 @@ void Collider::fitBox(Index index, const Pose& pose, float room, double dt)
     // Far from the origin single precision has gaps; they are added.
     const float gap = static_cast<float>(2e-7 * (std::abs(pose.x) + std::abs(pose.y)));
     const float margin = part.radius + room + gap + (pose.travel - straight);
-    FatBox& box = sweep_.box(index);
+    FatBox box;
     box.minX = static_cast<float>(pose.x) + minX + std::min(stepX, 0.0F) - margin;
     box.maxX = static_cast<float>(pose.x) + maxX + std::max(stepX, 0.0F) + margin;
     box.minY = static_cast<float>(pose.y) + minY + std::min(stepY, 0.0F) - margin;
     box.maxY = static_cast<float>(pose.y) + maxY + std::max(stepY, 0.0F) + margin;
-    sweep_.markMoved(index);
+    return box;
 }
 
 void Collider::findPairs(const WorldSettings& settings)
@@ -191,10 +223,11 @@ void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
     const RigidBody &bodyA = bodies_[a], &bodyB = bodies_[b];
     const MaterialPair& pair =
         settings.materials[static_cast<std::size_t>(bodyA.material) * settings.materialCount + bodyB.material];
-    if (!pair.collides || apart(partA, partB) || excluded_.contains(bodyKey(a, b))) return;
+    if (!pair.collides) return;
     RigidContact c;
     c.partA = partA, c.partB = partB, c.bodyA = a, c.bodyB = b;
-    if (!known_.insert(c.key())) return;
+    if (known_.contains(c.key()) || apart(partA, partB) || excluded_.contains(bodyKey(a, b))) return;
+    known_.insert(c.key());
     c.friction = static_cast<float>(pair.friction), c.restitution = static_cast<float>(pair.restitution);
     const float lengthA = parts_[partA].length, lengthB = parts_[partB].length;
     c.slop = kSlop * (!bodyA.moves ? lengthB : !bodyB.moves ? lengthA : std::min(lengthA, lengthB));
@@ -226,7 +259,8 @@ bool Collider::apart(Index partA, Index partB) const
     const double middleX = 0.5 * (static_cast<double>(box.minX) + box.maxX),
                  middleY = 0.5 * (static_cast<double>(box.minY) + box.maxY);
     const Vec2f middle{static_cast<float>(middleX - pose.x), static_cast<float>(middleY - pose.y)};
-    const float room = part.radius + std::max(room_[part.body], 0.0F) + pose.travel + surprise_[part.body];
+    const float room =
+        part.radius + std::max(room_[part.body], 0.0F) + ahead(part.body) + pose.travel + surprise_[part.body];
     for (int i = 0; i < part.count; ++i) {
         const Vec2f n = turned(pose.turn, part.normals[i]);
         const float away =

@@ -73,7 +73,7 @@ public:
         with.list(free_, [&](Index& i) { with(i); });
         fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1), resting_.resize(bodies_.size());
         for (std::vector<Pose>* poses : {&fitted_, &resting_})
-            for (Pose& pose : *poses) with(pose.x), with(pose.y), with(pose.turn);
+            for (Pose& pose : *poses) with(pose.x), with(pose.y), with(pose.turn), with(pose.travel);
         with(room_), with(disturbed_);
         sweep_.archive(with);
     }
@@ -90,6 +90,9 @@ private:
     bool takePose(Index body, const State&, float fall, double dt);
     void noteDrift(Index body);
     bool fitBoxes(Index body, double dt);
+    float ahead(Index body) const;
+    bool keepsWithin(Index body, double dt) const;
+    FatBox boxOf(Index part, const Pose&, float room, double dt) const;
     void fitBox(Index part, const Pose&, float room, double dt);
     void findPairs(const WorldSettings&);
     void addPair(Index partA, Index partB, const WorldSettings&);

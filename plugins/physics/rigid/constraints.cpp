@@ -51,6 +51,7 @@ typename Solver<Real>::Block& Solver<Real>::blockAt(std::size_t index)
     if (index >= blocks_.size()) blocks_.resize(index + 1);
     blocks_[index].outcomes.clear();
     blocks_[index].hardest = 0;
+    blocks_[index].foresees = false;
     return blocks_[index];
 }
 
@@ -66,7 +67,10 @@ void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve)
         }
     }
     pool_->run(count, [&](std::size_t i) { refreshBlock(collider, dt, resolve, blocks_[i]); });
-    for (std::size_t i = 0; i < count; ++i) hardest_ = std::max(hardest_, blocks_[i].hardest);
+    for (std::size_t i = 0; i < count; ++i) {
+        hardest_ = std::max(hardest_, blocks_[i].hardest);
+        foresees_ |= blocks_[i].foresees;
+    }
     // Whatever the order of the work, what follows from it is done in the order of the lanes.
     for (std::size_t i = 0; i < count; ++i)
         for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
@@ -97,6 +101,7 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             const Place place = placeOf(static_cast<int>(block.colour), group * kWidth + lane);
             fetch(c, place);
             const bool kept = collider.update(c, dt);
+            block.foresees |= c.foreseen;
             if (kept && c.count > 0 && c.resolve && resolve) {
                 write(collider, c, place);
                 block.hardest = std::max(block.hardest, collider.hitSpeed(c));
@@ -122,9 +127,11 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
         for (std::size_t at = i * kIdleABlock; at < last; ++at) {
             RigidContact& c = contacts[idleDue_[at]];
             const bool kept = collider.update(c, dt);
+            blocks_[i].foresees |= c.foreseen;
             if (!kept || c.touching || c.count > 0) blocks_[i].outcomes.push_back({idleDue_[at], kept});
         }
     });
+    for (std::size_t i = 0; i < blocks; ++i) foresees_ |= blocks_[i].foresees;
     for (std::size_t i = 0; i < blocks; ++i)
         for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
 }

@@ -171,6 +171,23 @@ void warmContacts(BodyState<Real>* bodies, const ContactLanes<Real>* groups, con
 }
 
 template <class Real>
+JET_INLINE void relaxNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
+                             const MoveLanes<Real>& moveA, const MoveLanes<Real>& moveB, const Lanes<Real>& zero,
+                             const StepConstants<Real>& step)
+{
+    const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
+    for (auto& p : c.points) {
+        const Lanes<Real> s = p.separation + moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
+        const Lanes<Real> bias = most(s, zero) * step.inverseH;
+        const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
+        const Lanes<Real> impulse = most(p.impulse - p.mass * (speed + bias), zero);
+        const Lanes<Real> change = impulse - p.impulse;
+        p.impulse = impulse;
+        push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+    }
+}
+
+template <class Real>
 void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size_t count,
                    const StepConstants<Real>& step)
 {
@@ -202,6 +219,22 @@ void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::siz
     }
 }
 
+/// Relaxes normals alone.
+template <class Real>
+void calmContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size_t count,
+                  const StepConstants<Real>& step)
+{
+    const Lanes<Real> zero = all<Real>(0);
+    for (std::size_t g = 0; g < count; ++g) {
+        ContactLanes<Real>& c = groups[g];
+        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
+        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
+        relaxNormals<Real>(c, a, b, moveA, moveB, zero, step);
+        scatter(bodies, c.a, a);
+        scatter(bodies, c.b, b);
+    }
+}
+
 template <class Real>
 void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, FrictionLanes<Real>* frictions,
                    std::size_t count, const StepConstants<Real>& step)
@@ -212,7 +245,6 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
         FrictionLanes<Real>& f = frictions[g];
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
-        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
         const Lanes<Real> tangentX = -c.normalY, tangentY = c.normalX;
         for (int k = 0; k < 2; ++k) {
             auto& q = f.points[k];
@@ -223,15 +255,7 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
             q.impulse = impulse;
             push<Real>(a, b, moveA.invInertia, moveB.invInertia, tangentX, tangentY, q.leverA, q.leverB, change);
         }
-        for (auto& p : c.points) {
-            const Lanes<Real> s = p.separation + moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
-            const Lanes<Real> bias = most(s, zero) * step.inverseH;
-            const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
-            const Lanes<Real> impulse = most(p.impulse - p.mass * (speed + bias), zero);
-            const Lanes<Real> change = impulse - p.impulse;
-            p.impulse = impulse;
-            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
-        }
+        relaxNormals<Real>(c, a, b, moveA, moveB, zero, step);
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
@@ -384,9 +408,10 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {warmContacts<Real>,     warmJoints<Real>,    solveContacts<Real>,       relaxContacts<Real>,
-            approachContacts<Real>, scaleContacts<Real>, carryContacts<Real>,       noteImpulses<Real>,
-            bounceContacts<Real>,   solveJoints<Real>,   integrateVelocities<Real>, integratePositions<Real>};
+    return {calmContacts<Real>,      warmContacts<Real>,     warmJoints<Real>,    solveContacts<Real>,
+            relaxContacts<Real>,     approachContacts<Real>, scaleContacts<Real>, carryContacts<Real>,
+            noteImpulses<Real>,      bounceContacts<Real>,   solveJoints<Real>,   integrateVelocities<Real>,
+            integratePositions<Real>};
 }
 
 }  // namespace

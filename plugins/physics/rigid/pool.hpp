@@ -1,5 +1,6 @@
-// The threads of one world: blocks of a loop are taken by whoever is free. Whoever comes late finds nothing left to do,
-// so a machine that is busy with other things costs nothing but the help.
+// The threads of one world. Each has its share of a loop's blocks, the same in each loop, so that data stay in its
+// cache; whoever is done takes from the others. Whoever comes late finds nothing left to do, so a machine that is busy
+// with other things costs nothing but the help.
 //
 // What a block does must not depend on who does it or when; then results are the same for any number of threads.
 #pragma once
@@ -55,16 +56,23 @@ private:
     void fork(Call, void* what, std::size_t blocks);
     void start();
     void stop();
-    void serve();
-    bool take(std::size_t& block);
+    void serve(std::size_t self);
+    bool take(std::size_t self, std::size_t& block);
+    bool anyLeft() const;
+
+    /// A thread's blocks of the task. The last are taken first.
+    struct alignas(64) Share {
+        std::size_t first = 0;                 // written before the ticket, read by those who have got a block
+        std::atomic<std::uint64_t> ticket{0};  // number of the task, blocks left to take
+    };
 
     int threads_ = 1;
     std::vector<std::thread> workers_;
-    // The task: written before the ticket, read by those who have got a block of it.
-    Call call_ = nullptr;
+    std::vector<Share> shares_;  // [threads]
+    Call call_ = nullptr;        // written before the tickets, too
     void* what_ = nullptr;
-    std::atomic<std::uint64_t> ticket_{0};  // number of the task, blocks left to take
-    std::atomic<std::size_t> done_{0};      // blocks
+    std::uint64_t task_ = 0;
+    alignas(64) std::atomic<std::size_t> done_{0};  // blocks
     std::atomic<int> sleeping_{0};
     std::atomic<bool> stopping_{false};
     std::mutex mutex_;

@@ -42,6 +42,8 @@ public:
 
     /// How fast the hardest hit comes, in sizes of the smaller part a second.
     float hardestHit() const { return hardest_; }
+    /// Is any contact that was looked at one of a hit to come?
+    bool foresees() const { return foresees_; }
 
     /// After the last constraint. `passes` over all of them; more when something is hit hard.
     void prepare(int passes);
@@ -113,6 +115,7 @@ private:
     struct Block {
         std::uint32_t colour = 0, first = 0, last = 0;
         float hardest = 0;
+        bool foresees = false;
         std::vector<Outcome> outcomes;
     };
     void refreshPlaced(Collider&, double dt, bool resolve);
@@ -177,6 +180,7 @@ private:
     std::vector<TouchChange> changes_;
     double lastH_ = 0;  // seconds: the impulses are of substeps of this
     float hardest_ = 0;
+    bool foresees_ = false;
     bool bounces_ = false;  // does any contact have restitution?
 };
 

@@ -90,6 +90,8 @@ struct StepConstants {
 
 template <class Real>
 struct Kernels {
+    /// Takes the pushing velocity back out, of normals alone.
+    void (*calmContacts)(BodyState<Real>*, ContactLanes<Real>*, std::size_t, const StepConstants<Real>&);
     /// Adds the accumulated impulses of contacts to the bodies' velocities.
     void (*warmContacts)(BodyState<Real>*, const ContactLanes<Real>*, const FrictionLanes<Real>*, std::size_t);
     void (*warmJoints)(BodyState<Real>*, const JointLanes<Real>*, std::size_t);

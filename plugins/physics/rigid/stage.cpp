@@ -115,7 +115,7 @@ void RigidStage::look(Solver<Real>& solver, const State& state, const WorldSetti
     collider_.find(state, settings, dt, stats, pool_);
     const auto start = std::chrono::steady_clock::now();
     solver.refresh(collider_, dt, settings.resolveCollisions);
-    for (int round = 0; round < kHitRounds && collider_.expectHits(state, settings, dt); ++round)
+    for (int round = 0; round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt); ++round)
         solver.refresh(collider_, dt, settings.resolveCollisions);
     stats.narrowPhaseMs += millisecondsSince(start);
 }
