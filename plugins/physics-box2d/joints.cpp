@@ -73,7 +73,11 @@ JointHandle Stage::add(const JointDef& def)
     joint.restAngle = static_cast<double>(joint.joint->GetBodyB()->GetAngle() - joint.joint->GetBodyA()->GetAngle());
     configure(joint);
     joints_.push_back(joint);
-    findJoined();
+    if (!def.collide && def.a.body != kNoHandle && def.b.body != kNoHandle &&
+        book_.joined.insert(std::minmax(def.a.body, def.b.body)).second) {
+        refilter(bodies_[def.a.body]);
+        refilter(bodies_[def.b.body]);
+    }
     return static_cast<JointHandle>(joints_.size() - 1);
 }
 
@@ -282,7 +286,7 @@ void Stage::findJoined()
             joined.insert(std::minmax(joint.def.a.body, joint.def.b.body));
     if (joined == book_.joined) return;
     book_.joined = std::move(joined);
-    refilter();
+    for (const Body& body : bodies_) refilter(body);
 }
 
 JointState Stage::stateOf(const Joint& joint) const

@@ -115,18 +115,19 @@ void Stage::applyMass(Body& body)
     body.body->SetMassData(&mass);
 }
 
-void Stage::refilter()
+void Stage::refilter(const Body& body)
 {
-    for (const Body& body : bodies_)
-        for (b2Fixture* f = body.body->GetFixtureList(); f; f = f->GetNext()) f->Refilter();
+    for (b2Fixture* f = body.body->GetFixtureList(); f; f = f->GetNext()) f->Refilter();
 }
 
 void Stage::setSettings(const WorldSettings& settings)
 {
     settings_ = settings;
     applySettings();
-    refilter();
-    for (const Body& body : bodies_) body.body->SetAwake(true);
+    for (const Body& body : bodies_) {
+        refilter(body);
+        body.body->SetAwake(true);
+    }
 }
 
 void Stage::setBody(BodyHandle handle, const BodyCommon& common)

@@ -112,7 +112,7 @@ private:
     b2Body* background(const Vec2& at);
     void applyMass(Body&);
     void applySettings();
-    void refilter();
+    static void refilter(const Body&);
     void applySpring(Spring&);
     void configure(Joint&);
     void connect(Joint&);

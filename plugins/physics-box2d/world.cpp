@@ -31,9 +31,30 @@ void World::doesSpecial(Special special)
     changed();
 }
 
+namespace {
+
+/// A state from elsewhere may name what is not there.
+void requireExisting(const Stage& stage, const Entry& e)
+{
+    switch (e.deed) {
+    case Deed::Step:
+    case Deed::Special:
+    case Deed::SetGravity: return;
+    case Deed::SetTorque: return requireBelow("torque", e.handle, stage.torques().size());
+    case Deed::SetForce: return requireBelow("force", e.handle, stage.forces().size());
+    case Deed::SetMotor:
+    case Deed::SetJointTarget:
+    case Deed::RemoveJoint: return requireBelow("joint", e.handle, stage.joints().size());
+    default: return requireBelow("body", e.handle, stage.bodies().size());
+    }
+}
+
+}  // namespace
+
 void World::play(Stage& stage, const Entry& e) const
 {
     const Vec2 value(e.x, e.y);
+    requireExisting(stage, e);
     switch (e.deed) {
     case Deed::Step:
         for (std::uint32_t i = 0; i < e.count; ++i) stage.step(e.x);
@@ -349,6 +370,13 @@ std::uint64_t World::hash() const
 
 std::vector<std::byte> World::save() const { return history_.bytes(); }
 
+std::unique_ptr<Stage> World::again(const History& history) const
+{
+    auto stage = std::make_unique<Stage>(settings_);
+    for (const Entry& entry : history.entries()) play(*stage, entry);
+    return stage;
+}
+
 void World::restore(std::span<const std::byte> state)
 {
     History wanted = History::read(state);
@@ -365,7 +393,12 @@ void World::restore(std::span<const std::byte> state)
         rest = wanted.entries();
     }
     Stage& stage = fresh ? *fresh : *stage_;
-    for (const Entry& entry : rest) play(stage, entry);
+    try {
+        for (const Entry& entry : rest) play(stage, entry);
+    } catch (...) {
+        if (!fresh) stage_ = again(history_);  // half a future is none
+        throw;
+    }
     if (stage.bodies().size() != bodyCount() || stage.joints().size() != jointCount())
         fail("the saved state is of a time before bodies or joints were added; it can only be restored with all of "
              "them.");

@@ -72,6 +72,7 @@ private:
     void does(const Entry&);
     void doesSpecial(Special);
     void play(Stage&, const Entry&) const;
+    std::unique_ptr<Stage> again(const History&) const;
     void changed() { stale_ = true; }
 
     WorldSettings settings_;  // as it was made

@@ -79,6 +79,20 @@ TEST(Box2dWorld, RestoringForwardsGoesOnFromThePresent)
     EXPECT_EQ(behind.hash(), ahead.hash());
 }
 
+TEST(Box2dWorld, AStateThatNamesWhatIsNotThereIsRefusedAndChangesNothing)
+{
+    World world{WorldSettings()};
+    world.addRigidBody(disc({0, 0}, 5));
+    for (int i = 0; i < 10; ++i) world.step(kStep);
+    const std::uint64_t before = world.hash();
+    History forged = History::read(world.save());
+    forged.add({Deed::Step, 0, 5, 0, kStep, 0});
+    forged.add({Deed::SetVelocity, 77, 1, 0, 1, 0});
+    EXPECT_NE(refusalOf([&] { world.restore(forged.bytes()); }).find("body 77"), std::string::npos);
+    EXPECT_EQ(world.hash(), before);
+    world.step(kStep);
+}
+
 TEST(History, StepsWithoutAnythingBetweenAreOneEntry)
 {
     History history;

@@ -81,6 +81,17 @@ TEST_F(OneEngine, WithBox2dASoftBodyStaysAsDrawnAndTheOutputSaysWhy)
     EXPECT_NE(simulation->output()[0].text.find("soft bodies"), std::string::npos) << simulation->output()[0].text;
 }
 
+TEST_F(OneEngine, AnUnknownEngineIsRefusedWithAListOfThoseInstalled)
+{
+    SimulationOptions options;
+    options.physics = "box3d";
+    const auto started = Simulation::start(scene_, options);
+    ASSERT_FALSE(started);
+    const std::string message = started.error().message;
+    EXPECT_NE(message.find("jet-physics (JET Physics)"), std::string::npos) << message;
+    EXPECT_NE(message.find("physics-box2d (Box2D 2.4.1)"), std::string::npos) << message;
+}
+
 }  // namespace
 
 }  // namespace jet::test
