@@ -3,6 +3,7 @@
 #include "canvas/backdrop.hpp"
 #include "canvas/qt_input.hpp"
 
+#include <jet/physics_view.hpp>
 #include <jet/scene_painter.hpp>
 #include <jet/ui/qt_painter.hpp>
 
@@ -52,6 +53,7 @@ PlayView::PlayView(SimulationCenter& simulation, EventsCenter& events, const Vie
     setGeometry(parent->rect());
     frames_ = events.subscribe<SimulationFrameReady>(nullptr, [this](const SimulationFrameReady&) { update(); });
     states_ = events.subscribe<SimulationStateChanged>(nullptr, [this](const SimulationStateChanged&) { update(); });
+    marks_ = events.subscribe<PhysicsMarksChanged>(nullptr, [this](const PhysicsMarksChanged&) { update(); });
 }
 
 bool PlayView::eventFilter(QObject* watched, QEvent* event)
@@ -98,6 +100,7 @@ void PlayView::paintGame(QPainter& painter, const SimulationFrame& frame)
     target.save();
     target.transform(view.toPixels());
     paintScene(scene, &poses, PaintPurpose::Play, Box(view.anchor, view.anchor + size / view.scale), target);
+    if (frame.physics) paintPhysics(*frame.physics, simulation_.physicsMarks(), target);
     target.restore();
 }
 

@@ -37,7 +37,7 @@ private:
     SimulationCenter& simulation_;
     View editView_;
     QSet<int> held_;  // keys that are down, to be let go when the focus leaves
-    Subscription frames_, states_;
+    Subscription frames_, states_, marks_;
 };
 
 }  // namespace jet::host

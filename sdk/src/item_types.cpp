@@ -161,6 +161,16 @@ PropertyTable bodyProperties()
         real("omega", "Start spin", 0).in("rad/s").range(-1e6, 1e6),
         real("gravity-scale", "Gravity scale", 1).range(-1e6, 1e6),
         flag("sensor", "Sensor", false).says("Reports contacts without being pushed."),
+        flag("kinematic", "Kinematic", false).says("Moves with its velocity and spin, and nothing pushes it."),
+        flag("fixed-rotation", "Never turns", false),
+        vector("one-sided", "One-sided", {0, 0})
+            .says("A platform: holds only what comes against this direction, as 0 -1 for what falls; 0 0: all sides."),
+        integer("group", "Group", 0).range(0, 1e6).says("Bodies of one group above 0 pass each other."),
+        integer("layer", "Layers", 1).range(0, 4294967295.0).says("The layers it is on: the sum of 1, 2, 4, 8, …"),
+        integer("mask", "Meets layers", 4294967295)
+            .range(0, 4294967295.0)
+            .says("The layers it collides with, as such a sum; both bodies must agree."),
+        flag("allow-sleep", "May sleep", true).says("May it be left out of the computation while it rests?"),
     };
 }
 

@@ -1,6 +1,6 @@
 #include "hasher.hpp"
 #include "scene_state.hpp"
-#include "world_builder.hpp"
+#include "simulation_state.hpp"
 
 #include <jet/catalog.hpp>
 #include <jet/simulation.hpp>
@@ -12,70 +12,19 @@
 namespace jet {
 
 namespace {
+
 constexpr std::size_t kMaximumOutput = 10'000;
+
+/// For whoever asked for one that is not there.
+std::string installedEngines(const Catalog& catalog)
+{
+    std::string list;
+    for (const Contribution& one : catalog.contributions(ContributionKind::PhysicsEngine))
+        list += (list.empty() ? " Installed: " : ", ") + one.id + " (" + one.label + ")";
+    return list.empty() ? list : list + ".";
 }
 
-struct Simulation::Private {
-    EventsCenter events;  // the copy's own: nobody listens
-    SimulationOptions options;
-    std::unique_ptr<Scene> scene;
-    std::unique_ptr<PhysicsWorld> world;
-    std::vector<BodyBinding> bodies;
-    std::unordered_map<std::uint64_t, std::size_t> bodyByItem;
-    std::map<ItemId, ActuatorHandle> actuators;
-    std::map<ItemId, double> torques;
-    std::unique_ptr<ScriptRuntime> scripts;
-
-    double timeStep = 1.0 / 60;
-    std::uint64_t steps = 0;
-    std::set<std::string, std::less<>> keys;
-    GameView view;
-    std::deque<OutputLine> output;
-    std::uint64_t printed = 0;
-    std::function<void(const OutputLine&)> onOutput;
-    std::function<void(ItemId, std::string_view, const Value&)> onProperty;
-    std::optional<std::string> requestedScene;
-    std::uint64_t random = 1;
-    // Of the item types in the scene: asked once, on the thread that owns the catalog.
-    std::map<std::string, const PropertyTable*, std::less<>> tables;
-
-    mutable std::vector<Path> poses;  // by body handle; valid where posedAt equals steps + 1
-    mutable std::vector<std::uint64_t> posedAt;
-
-    std::size_t bindingOf(ItemId item) const
-    {
-        const auto found = bodyByItem.find(item.value);
-        return found == bodyByItem.end() ? bodies.size() : found->second;
-    }
-
-    Path posed(const BodyBinding& binding) const
-    {
-        const BodyStates states = world->bodies();
-        if (binding.soft) {
-            const std::uint32_t first = states.firstPoint[binding.body];
-            const std::uint32_t last = states.firstPoint[binding.body + 1];
-            return binding.skin.deformed(states.points.subspan(first, last - first));
-        }
-        const Affine motion = Affine::translation(states.position[binding.body]) *
-                              Affine::rotation(states.angle[binding.body]) * Affine::translation(-binding.restPosition);
-        return binding.restPath.transformed(motion);
-    }
-
-    // One event a pair of bodies and step: scripts ask for more through the contact itself.
-    void dispatchCollisions()
-    {
-        if (!scripts->listensTo(ScriptEventKind::BodyCollision)) return;
-        std::set<std::pair<BodyHandle, BodyHandle>> seen;
-        const std::vector<Contact> contacts(world->contacts().begin(), world->contacts().end());
-        for (const Contact& contact : contacts) {
-            if (!seen.insert(std::minmax(contact.bodyA, contact.bodyB)).second) continue;
-            ScriptEvent event{ScriptEventKind::BodyCollision, {}, {}, {}, {}, contact};
-            event.bodyA = bodies.at(contact.bodyA).item;
-            event.bodyB = bodies.at(contact.bodyB).item;
-            scripts->dispatch(event);
-        }
-    }
-};
+}  // namespace
 
 Simulation::Simulation() : d_(std::make_unique<Private>()) {}
 Simulation::~Simulation() { d_->scripts.reset(); }
@@ -100,7 +49,8 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     if (engineId.empty()) engineId = scene.setting("physics").as<std::string>();
     PhysicsEngine* engine = catalog.physicsEngine(engineId);
     if (!engine)
-        return Error("the scene cannot be played: " + catalog.explain(ContributionKind::PhysicsEngine, engineId));
+        return Error("the scene cannot be played: " + catalog.explain(ContributionKind::PhysicsEngine, engineId) +
+                     installedEngines(catalog));
 
     std::unique_ptr<Simulation> simulation(new Simulation);
     auto& d = *simulation->d_;
@@ -201,17 +151,9 @@ const Path* Simulation::pose(const Item& item) const
 const LiveBody* Simulation::liveBody(const Item& item) const
 {
     const std::size_t i = d_->bindingOf(item.id());
-    if (i >= d_->bodies.size() || !d_->bodies[i].live) return nullptr;
-    BodyBinding& binding = d_->bodies[i];
-    if (binding.liveAt != d_->steps + 1) {
-        const BodyStates states = d_->world->bodies();
-        const auto points = states.points.subspan(states.firstPoint[binding.body], binding.live->particles.size());
-        std::copy(points.begin(), points.end(), binding.live->particles.begin());
-        for (std::uint32_t s = 0; s < binding.live->springs.size(); ++s)
-            binding.live->springs[s].whole = d_->world->springAlive(binding.body, s);
-        binding.liveAt = d_->steps + 1;
-    }
-    return &*binding.live;
+    if (i >= d_->bodies.size() || !d_->bodies[i].wantsLive) return nullptr;
+    d_->refresh(d_->bodies[i]);
+    return &*d_->bodies[i].live;
 }
 
 void Simulation::setTorque(ItemId item, double value)

@@ -2,6 +2,8 @@
 // pointer swap only. The catalog and the edited scene are used on the owner's thread alone.
 #include "item_mutator.hpp"
 
+#include <jet/physics_view.hpp>
+#include <jet/rewind.hpp>
 #include <jet/simulation.hpp>
 
 #include <algorithm>
@@ -39,7 +41,12 @@ struct SimulationCenter::Private {
     int singleSteps = 0;
     double speed = 1;
     std::shared_ptr<const SimulationFrame> frame;
-    std::atomic<bool> framePending{false};
+    std::optional<std::uint64_t> rewindTarget;
+    RewindState rewind;
+    std::atomic<bool> framePending{false}, pictured{false};
+
+    RewindLimits limits, runLimits;  // of the next run; of this one
+    PhysicsMarks marks;
 
     template <class Task>
     void onOwner(Task task)
@@ -64,6 +71,11 @@ struct SimulationCenter::Private {
         next->time = simulation.time();
         next->stepMs = stepMs;
         next->view = simulation.view();
+        if (pictured) {
+            auto picture = std::make_shared<PhysicsPicture>(simulation.physicsPicture());
+            picture->stepMs = stepMs;
+            next->physics = std::move(picture);
+        }
         simulation.scene().root().walk([&](const Item& item) {
             if (const Path* pose = simulation.pose(item)) next->poses.emplace_back(item.id(), *pose);
             if (const LiveBody* body = simulation.liveBody(item)) next->bodies.emplace_back(item.id(), *body);
@@ -98,16 +110,55 @@ struct SimulationCenter::Private {
         if (!problem.empty()) onOwner([this, problem] { stopWith("the run was stopped: " + problem); });
     }
 
+    void remember(const Simulation& simulation, RewindHistory& history)
+    {
+        if (!history.wants(simulation.stepCount())) return;
+        try {
+            history.record(simulation.stepCount(), simulation.save());
+        } catch (const Failure&) {  // an engine that cannot save can still play
+            history.clear();
+        }
+        tellRewind(simulation, history);
+    }
+
+    void tellRewind(const Simulation& simulation, const RewindHistory& history)
+    {
+        RewindState state = history.state();
+        state.present = simulation.stepCount();
+        const std::lock_guard lock(mutex);
+        rewind = state;
+    }
+
+    /// Where not every step is kept, the physics is computed on from the one before; scripts are left out of that.
+    void goBack(Simulation& simulation, const RewindHistory& history, std::uint64_t step)
+    {
+        const auto state = history.find(step);
+        if (!state) return;
+        try {
+            simulation.restore(state->bytes);
+        } catch (const Failure& failure) {
+            return simulation.print(
+                {OutputLine::Kind::Warning, std::string("one cannot go back there: ") + failure.what(), {}, 0});
+        }
+        const std::uint64_t last = std::min(step, history.state().newest);
+        while (!simulation.hasScripts() && simulation.stepCount() < last) simulation.stepPhysics();
+        tellRewind(simulation, history);
+        publish(simulation, 0);
+    }
+
     void play(Simulation& simulation)
     {
         const auto dt = std::chrono::duration<double>(simulation.timeStep());
         auto next = Clock::now();
+        RewindHistory history(runLimits, simulation.timeStep());
+        remember(simulation, history);
         publish(simulation, 0);
         for (;;) {
             bool stepNow = false;
+            std::optional<std::uint64_t> target;
             {
                 std::unique_lock lock(mutex);
-                const auto ready = [&] { return quit || !commands.empty() || singleSteps > 0; };
+                const auto ready = [&] { return quit || !commands.empty() || singleSteps > 0 || rewindTarget; };
                 if (paused && !ready()) wake.wait(lock, [&] { return ready() || !paused; });
                 if (!paused) wake.wait_until(lock, next, ready);
                 if (quit) return;
@@ -118,7 +169,9 @@ struct SimulationCenter::Private {
                 }
                 const double pace = speed;
                 const bool playing = !paused;
+                target = std::exchange(rewindTarget, std::nullopt);
                 lock.unlock();
+                if (target) goBack(simulation, history, *target);
                 for (auto& command : waiting) command(simulation);
                 const auto now = Clock::now();
                 if (playing && now >= next) {
@@ -132,7 +185,9 @@ struct SimulationCenter::Private {
             if (!stepNow) continue;
             const auto before = Clock::now();
             simulation.step();
-            publish(simulation, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
+            const double took = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
+            remember(simulation, history);
+            publish(simulation, took);
             if (simulation.requestedScene()) {
                 onOwner([this, name = *simulation.requestedScene()] { goTo(name); });
                 return;
@@ -153,6 +208,8 @@ struct SimulationCenter::Private {
         commands.clear();
         quit = paused = false;
         singleSteps = 0;
+        rewindTarget.reset();
+        rewind = {};
         framePending = false;
     }
 
@@ -186,6 +243,7 @@ struct SimulationCenter::Private {
         auto simulation = Simulation::start(playing, options);
         if (!simulation) return simulation.error();
         scene = &playing;
+        runLimits = limits;
         display = playing.clone(events);
         for (const OutputLine& line : (*simulation)->output()) events.post(&self, OutputPrinted{line});
         (*simulation)->setOutputHandler([this](const OutputLine& line) {
@@ -256,6 +314,35 @@ void SimulationCenter::stop()
 SimulationCenter::State SimulationCenter::state() const { return d_->state; }
 const Scene* SimulationCenter::scene() const { return d_->scene; }
 const Scene* SimulationCenter::runningScene() const { return d_->display.get(); }
+
+RewindState SimulationCenter::rewindState() const
+{
+    const std::lock_guard lock(d_->mutex);
+    return d_->rewind;
+}
+
+void SimulationCenter::rewindTo(std::uint64_t step)
+{
+    if (d_->state == State::Stopped) return;
+    if (d_->state == State::Playing) pause();
+    const std::lock_guard lock(d_->mutex);
+    d_->rewindTarget = step;
+    d_->wake.notify_one();
+}
+
+void SimulationCenter::setRewindLimits(const RewindLimits& limits) { d_->limits = limits; }
+
+void SimulationCenter::setPhysicsMarks(const PhysicsMarks& marks)
+{
+    if (d_->marks == marks) return;
+    d_->marks = marks;
+    const bool before = d_->pictured.exchange(marks.any());
+    if (!before && marks.any())  // a paused run has a frame without the picture
+        d_->send([this](Simulation& simulation) { d_->publish(simulation, 0); });
+    d_->events.post(this, PhysicsMarksChanged{});
+}
+
+const PhysicsMarks& SimulationCenter::physicsMarks() const { return d_->marks; }
 
 void SimulationCenter::setSpeed(double factor)
 {

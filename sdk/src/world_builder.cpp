@@ -55,6 +55,14 @@ BodyCommon SceneWorldBuilder::common(const Item& item)
     common.omega = own.get("omega", table).as<double>();
     common.gravityScale = own.get("gravity-scale", table).as<double>();
     common.sensor = own.get("sensor", table).as<bool>();
+    common.kinematic = own.get("kinematic", table).as<bool>();
+    common.fixedRotation = own.get("fixed-rotation", table).as<bool>();
+    common.oneSided = own.get("one-sided", table).as<Vec2>();
+    const auto bits = [&](const char* id) {
+        return static_cast<std::uint32_t>(own.get(id, table).as<std::int64_t>());
+    };
+    common.group = bits("group"), common.layer = bits("layer"), common.mask = bits("mask");
+    common.allowSleep = own.get("allow-sleep", table).as<bool>();
     const auto material = own.get("material", table).as<std::string>();
     if (!material.empty()) {
         const int index = scene_.materials().find(material);
@@ -103,7 +111,8 @@ void SceneWorldBuilder::addBody(const Item& item)
             binding.soft = true;
             binding.body = world_.addSoftBody(*soft);
             binding.skin = Skin(item.path(), *soft);
-            if (wantsLiveBody(scene_, item)) binding.live = liveBodyOf(*soft);
+            binding.live = liveBodyOf(*soft);
+            binding.wantsLive = wantsLiveBody(scene_, item);
         } else {
             binding.body = world_.addRigidBody(std::get<RigidBodyDef>(*def));
         }

@@ -21,7 +21,8 @@ struct BodyBinding {
     Vec2 restPosition;  ///< centre of mass when play started
     Skin skin;
     Path restPath;
-    std::optional<LiveBody> live;  ///< soft bodies with an effect that wants it
+    std::optional<LiveBody> live;  ///< of soft bodies
+    bool wantsLive = false;        ///< an effect draws it
     std::uint64_t liveAt = 0;      ///< steps + 1 when `live` was brought up to date
 };
 

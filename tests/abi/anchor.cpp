@@ -21,6 +21,8 @@
 #include <jet/path.hpp>
 #include <jet/path_operations.hpp>
 #include <jet/physics.hpp>
+#include <jet/physics_soft.hpp>
+#include <jet/physics_view.hpp>
 #include <jet/plugin.hpp>
 #include <jet/plugins.hpp>
 #include <jet/project.hpp>
@@ -28,6 +30,7 @@
 #include <jet/project_tree.hpp>
 #include <jet/property.hpp>
 #include <jet/result.hpp>
+#include <jet/rewind.hpp>
 #include <jet/scene.hpp>
 #include <jet/script.hpp>
 #include <jet/settings.hpp>
@@ -152,6 +155,7 @@ TYPE(jet::Crossing)
 TYPE(jet::MaterialPair)
 TYPE(jet::Precision)
 TYPE(jet::Simd)
+TYPE(jet::Method)
 TYPE(jet::WorldSettings)
 TYPE(jet::SpringDef)
 TYPE(jet::AngularSpringDef)
@@ -174,6 +178,11 @@ TYPE(jet::BodyStates)
 TYPE(jet::StepStats)
 TYPE(jet::PhysicsWorld)
 TYPE(jet::PhysicsEngine)
+TYPE(jet::SoftMatter)
+TYPE(jet::ForceFieldDef)
+TYPE(jet::PhysicsMarks)
+TYPE(jet::PhysicsPicture)
+TYPE(jet::PhysicsMarksChanged)
 TYPE(jet::PluginRegistrar)
 TYPE(JetPluginEntry)
 TYPE(jet::PluginState)
@@ -198,6 +207,9 @@ TYPE(jet::Properties)
 TYPE(jet::Location)
 TYPE(jet::Error)
 TYPE(jet::Failure)
+TYPE(jet::RewindLimits)
+TYPE(jet::RewindState)
+TYPE(jet::RewindHistory)
 TYPE(jet::Scene)
 TYPE(jet::SceneBuilder)
 TYPE(jet::ScriptEventKind)

@@ -36,6 +36,21 @@ const PropertyTable& geometryTable()
     return table;
 }
 
+/// The scene's settings, with the installed engines to choose from.
+std::vector<PropertySpec> settingsOf(const Catalog& catalog)
+{
+    const auto declared = Scene::settingsTable().specs();
+    std::vector<PropertySpec> specs(declared.begin(), declared.end());
+    for (PropertySpec& spec : specs) {
+        if (spec.id != "physics") continue;
+        spec.kind = ValueKind::Choice;
+        spec.choices = {""};
+        for (const Contribution& one : catalog.contributions(ContributionKind::PhysicsEngine))
+            spec.choices.push_back(one.id);
+    }
+    return specs;
+}
+
 /// A stored property of an effect whose plugin is absent, to be read only.
 PropertyTable rawTable(const std::string& id)
 {
@@ -123,10 +138,10 @@ Section& InspectorWidget::addSection(const QString& title)
     return *section;
 }
 
-PropertyForm* InspectorWidget::addForm(Section& section, const PropertyTable& table, PropertyForm::Source source,
-                                       PropertyForm::Handler handler)
+PropertyForm* InspectorWidget::addForm(Section& section, std::span<const PropertySpec> specs,
+                                       PropertyForm::Source source, PropertyForm::Handler handler)
 {
-    auto* form = new PropertyForm(table, PropertyForm::Layout::Rows, &section);
+    auto* form = new PropertyForm(specs, PropertyForm::Layout::Rows, &section);
     form->show(source);
     form->setHandler(std::move(handler));
     section.addContent(form);
@@ -138,7 +153,7 @@ void InspectorWidget::addSceneSections()
 {
     Section& section = addSection(translated("Scene"));
     addForm(
-        section, Scene::settingsTable(), [this](const PropertySpec& spec) { return scene_->setting(spec.id); },
+        section, settingsOf(editor_.catalog()), [this](const PropertySpec& spec) { return scene_->setting(spec.id); },
         [this](const PropertySpec& spec, const Value& value, EditPhase phase) {
             edit("Change scene", "scene-" + spec.id, phase, [&](Transaction& e) { e.setScene(spec.id, value); });
         });

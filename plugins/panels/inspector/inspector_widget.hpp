@@ -34,8 +34,13 @@ private:
     void addEffectButton();
     Section& addSection(const QString& title);
     /// A form whose values come from `source`; it is shown again at each refresh.
-    ui::PropertyForm* addForm(Section& section, const PropertyTable& table, ui::PropertyForm::Source source,
+    ui::PropertyForm* addForm(Section& section, std::span<const PropertySpec> specs, ui::PropertyForm::Source source,
                               ui::PropertyForm::Handler handler);
+    ui::PropertyForm* addForm(Section& section, const PropertyTable& table, ui::PropertyForm::Source source,
+                              ui::PropertyForm::Handler handler)
+    {
+        return addForm(section, table.specs(), std::move(source), std::move(handler));
+    }
 
     /// Runs `change` on each item in one transaction.
     void editItems(std::string_view label, const std::string& key, ui::EditPhase phase,

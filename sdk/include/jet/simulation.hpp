@@ -20,10 +20,16 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace jet {
+
+struct PhysicsMarks;    // jet/physics_view.hpp
+struct PhysicsPicture;  // jet/physics_view.hpp
+struct RewindLimits;    // jet/rewind.hpp
+struct RewindState;     // jet/rewind.hpp
 
 struct SimulationOptions {
     std::optional<double> timeStep;  ///< seconds; none: the scene's
@@ -111,6 +117,16 @@ public:
 
     /// Hash of the dynamic state: equal runs give equal hashes.
     std::uint64_t hash() const;
+    /// The dynamic state as bytes: physics, steps, actuators, camera, random numbers; not what scripts keep in
+    /// variables of their own, nor keys. After restore() it goes on bit-equal. Only for the simulation that saved it,
+    /// or an equal one.
+    std::vector<std::byte> save() const;
+    void restore(std::span<const std::byte> state);
+    bool hasScripts() const;
+    /// Steps the physics alone, as between two kept states of a history: scripts hear nothing of it.
+    void stepPhysics();
+    /// The world as it is now, for looking at it.
+    PhysicsPicture physicsPicture() const;
     /// The state file of the command line (DESIGN §5), as JSON text.
     std::string stateJson() const;
 
@@ -129,6 +145,7 @@ struct SimulationFrame {
     GameView view;
     std::vector<std::pair<ItemId, Path>> poses;       ///< items with a body, sorted by id
     std::vector<std::pair<ItemId, LiveBody>> bodies;  ///< of items with an effect that wants it, sorted by id
+    std::shared_ptr<const PhysicsPicture> physics;    ///< while a physics mark is set, else null
 };
 
 /// Sent by the SimulationCenter on the owner thread of its EventsCenter.
@@ -169,6 +186,18 @@ public:
     const Scene* runningScene() const;
     /// 1 = real time.
     void setSpeed(double factor);
+
+    // Going back (jet/rewind.hpp). [owner's thread]
+    RewindState rewindState() const;
+    /// Pauses, and shows the state after `step`, or the nearest that can be gone back to. Asked for again before it is
+    /// done, only the last wish counts.
+    void rewindTo(std::uint64_t step);
+    /// Of the next run; 10 s and 256 MB at first.
+    void setRewindLimits(const RewindLimits& limits);
+
+    // Looking inside (jet/physics_view.hpp). The marks stay from run to run; PhysicsMarksChanged tells of them.
+    void setPhysicsMarks(const PhysicsMarks& marks);
+    const PhysicsMarks& physicsMarks() const;
 
     /// Latest frame; null when stopped. [owner's thread]
     std::shared_ptr<const SimulationFrame> frame() const;

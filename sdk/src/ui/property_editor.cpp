@@ -192,10 +192,7 @@ public:
     ChoiceEditor(const PropertySpec& spec, QWidget* parent) : PropertyEditor(parent), box_(new QComboBox(this))
     {
         fillWith(this, box_);
-        for (const std::string& choice : spec.choices) {
-            const QString id = QString::fromStdString(choice);
-            box_->addItem(QCoreApplication::translate("Properties", choice.c_str()), id);
-        }
+        for (const std::string& choice : spec.choices) add(QString::fromStdString(choice));
         box_->setPlaceholderText(translated("several values"));
         box_->setFocusPolicy(Qt::StrongFocus);
         connect(box_, &QComboBox::activated, this,
@@ -204,10 +201,20 @@ public:
 
     void show(const std::optional<Value>& value) override
     {
-        box_->setCurrentIndex(value ? box_->findData(QString::fromStdString(value->as<std::string>())) : -1);
+        const QString id = value ? QString::fromStdString(value->as<std::string>()) : QString();
+        // What is stored may be a choice of a plugin that is not here: it stays, until another is chosen.
+        if (value && box_->findData(id) < 0) add(id);
+        box_->setCurrentIndex(value ? box_->findData(id) : -1);
     }
 
 private:
+    void add(const QString& id)
+    {
+        box_->addItem(id.isEmpty() ? translated("automatic")
+                                   : QCoreApplication::translate("Properties", id.toUtf8().constData()),
+                      id);
+    }
+
     QComboBox* box_;
 };
 

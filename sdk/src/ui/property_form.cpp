@@ -46,13 +46,13 @@ QHBoxLayout* lineLayout(QWidget* form)
 
 }  // namespace
 
-PropertyForm::PropertyForm(const PropertyTable& table, Layout layout, QWidget* parent)
+PropertyForm::PropertyForm(std::span<const PropertySpec> specs, Layout layout, QWidget* parent)
     : QWidget(parent), d_(std::make_unique<Private>())
 {
     QFormLayout* rows = layout == Layout::Rows ? rowsLayout(this) : nullptr;
     QHBoxLayout* line = rows ? nullptr : lineLayout(this);
-    d_->rows.reserve(table.specs().size());
-    for (const PropertySpec& spec : table.specs()) {
+    d_->rows.reserve(specs.size());
+    for (const PropertySpec& spec : specs) {
         PropertyEditor* editor = createPropertyEditor(spec, this);
         editor->setObjectName(QString::fromStdString(spec.id));
         editor->setToolTip(QCoreApplication::translate("Properties", spec.help.c_str()));

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace jet::ui {
 
@@ -49,7 +50,11 @@ public:
     using Source = std::function<std::optional<Value>(const PropertySpec& spec)>;
     enum class Layout { Rows, Line };  ///< a column of rows, or side by side as in a tool bar
 
-    PropertyForm(const PropertyTable& table, Layout layout, QWidget* parent);
+    PropertyForm(std::span<const PropertySpec> specs, Layout layout, QWidget* parent);
+    PropertyForm(const PropertyTable& table, Layout layout, QWidget* parent)
+        : PropertyForm(table.specs(), layout, parent)
+    {
+    }
     ~PropertyForm() override;
 
     void setHandler(Handler handler);

@@ -1,0 +1,87 @@
+// What a Simulation consists of; shared by the files that implement it.
+#pragma once
+
+#include "world_builder.hpp"
+
+#include <jet/simulation.hpp>
+
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace jet {
+
+struct Simulation::Private {
+    EventsCenter events;  // the copy's own: nobody listens
+    SimulationOptions options;
+    std::unique_ptr<Scene> scene;
+    std::unique_ptr<PhysicsWorld> world;
+    std::vector<BodyBinding> bodies;
+    std::unordered_map<std::uint64_t, std::size_t> bodyByItem;
+    std::map<ItemId, ActuatorHandle> actuators;
+    std::map<ItemId, double> torques;
+    std::unique_ptr<ScriptRuntime> scripts;
+
+    double timeStep = 1.0 / 60;
+    std::uint64_t steps = 0;
+    std::set<std::string, std::less<>> keys;
+    GameView view;
+    std::deque<OutputLine> output;
+    std::uint64_t printed = 0;
+    std::function<void(const OutputLine&)> onOutput;
+    std::function<void(ItemId, std::string_view, const Value&)> onProperty;
+    std::optional<std::string> requestedScene;
+    std::uint64_t random = 1;
+    // Of the item types in the scene: asked once, on the thread that owns the catalog.
+    std::map<std::string, const PropertyTable*, std::less<>> tables;
+
+    mutable std::vector<Path> poses;  // by body handle; valid where posedAt equals steps + 1
+    mutable std::vector<std::uint64_t> posedAt;
+
+    std::size_t bindingOf(ItemId item) const
+    {
+        const auto found = bodyByItem.find(item.value);
+        return found == bodyByItem.end() ? bodies.size() : found->second;
+    }
+
+    Path posed(const BodyBinding& binding) const
+    {
+        const BodyStates states = world->bodies();
+        if (binding.soft) {
+            const std::uint32_t first = states.firstPoint[binding.body];
+            const std::uint32_t last = states.firstPoint[binding.body + 1];
+            return binding.skin.deformed(states.points.subspan(first, last - first));
+        }
+        const Affine motion = Affine::translation(states.position[binding.body]) *
+                              Affine::rotation(states.angle[binding.body]) * Affine::translation(-binding.restPosition);
+        return binding.restPath.transformed(motion);
+    }
+
+    void refresh(BodyBinding& binding) const
+    {
+        if (!binding.live || binding.liveAt == steps + 1) return;
+        const BodyStates states = world->bodies();
+        const auto points = states.points.subspan(states.firstPoint[binding.body], binding.live->particles.size());
+        std::copy(points.begin(), points.end(), binding.live->particles.begin());
+        for (std::uint32_t s = 0; s < binding.live->springs.size(); ++s)
+            binding.live->springs[s].whole = world->springAlive(binding.body, s);
+        binding.liveAt = steps + 1;
+    }
+
+    // One event a pair of bodies and step: scripts ask for more through the contact itself.
+    void dispatchCollisions()
+    {
+        if (!scripts->listensTo(ScriptEventKind::BodyCollision)) return;
+        std::set<std::pair<BodyHandle, BodyHandle>> seen;
+        const std::vector<Contact> contacts(world->contacts().begin(), world->contacts().end());
+        for (const Contact& contact : contacts) {
+            if (!seen.insert(std::minmax(contact.bodyA, contact.bodyB)).second) continue;
+            ScriptEvent event{ScriptEventKind::BodyCollision, {}, {}, {}, {}, contact};
+            event.bodyA = bodies.at(contact.bodyA).item;
+            event.bodyB = bodies.at(contact.bodyB).item;
+            scripts->dispatch(event);
+        }
+    }
+};
+
+}  // namespace jet
