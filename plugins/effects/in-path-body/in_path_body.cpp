@@ -49,6 +49,16 @@ const jet::PropertyTable& table()
         // With 0.1 a ball of the default mass bounces for a quarter of a minute; with 1 it does not bounce at all.
         jet::real("kd", "Damping kd", 0.3).in("force·s/unit").range(0, 1e9),
         jet::real("tear-ratio", "Tears at", 0).in("× rest length").range(0, 1e6).says("0: never tears."),
+        jet::real("thickness", "Thickness", 0).in("units").range(0, 1e6).says("How far its border is felt outside."),
+        jet::real("pressure", "Gas pressure", 0).in("force/unit").range(0, 1e9).says("Above that outside, as drawn."),
+        jet::real("area-stiffness", "Area stiffness", 0)
+            .in("force/unit")
+            .range(0, 1e9)
+            .says("Pressure that resists a change of its area, times the relative change."),
+        jet::real("yield", "Flows at strain", 0).range(0, 1e6).says("Springs stay changed beyond it; 0: never."),
+        jet::real("creep", "Creep", 10).in("1/s").range(0, 1e6).says("How fast strain beyond the yield stays."),
+        jet::real("most-flow", "Flows at most", 0.5).in("× rest length").range(0, 0.95),
+        jet::flag("self-collision", "Collides with itself", false),
     };
     return table;
 }
@@ -66,6 +76,19 @@ Options optionsOf(const jet::EffectInput& in)
     o.cross = in.get<bool>("cross");
     o.cell = in.get<jet::Vec2>("cell-size");
     return o;
+}
+
+jet::SoftMatter matterOf(const jet::EffectInput& in)
+{
+    jet::SoftMatter matter;
+    matter.thickness = in.get<double>("thickness");
+    matter.pressure = in.get<double>("pressure");
+    matter.areaStiffness = in.get<double>("area-stiffness");
+    matter.yield = in.get<double>("yield");
+    matter.creep = in.get<double>("creep");
+    matter.mostFlow = in.get<double>("most-flow");
+    matter.selfCollision = in.get<bool>("self-collision");
+    return matter;
 }
 
 jet::Path springLines(const Lattice& lattice, SpringKind kind)
@@ -238,6 +261,7 @@ public:
         }
         body.particles = std::move(lattice.particles);
         body.borders = std::move(lattice.rings);
+        body.matter = matterOf(in);
         return body;
     }
 };

@@ -1,0 +1,152 @@
+// Joints and force fields as items: what they lie over is what they hold or push, at play.
+#include "support/recording_painter.hpp"
+#include "support/test_catalog.hpp"
+
+#include <jet/item_type.hpp>
+#include <jet/simulation.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace jet::test {
+
+namespace {
+
+using testing::HasSubstr;
+
+class PhysicsItemsTest : public testing::Test {
+protected:
+    PhysicsItemsTest() : scene_("Scene", events_, catalog_) {}
+
+    ItemId body(const Box& box, Properties properties = {})
+    {
+        auto edit = scene_.items().begin("Body");
+        const Item& item = edit.add<ShapeItem>(scene_.root(), Path::rectangle(box));
+        edit.addEffect(item, "in-path-rigid-body");
+        for (const auto& [id, value] : properties.entries()) edit.set(item, id, value);
+        edit.commit();
+        return item.id();
+    }
+    ItemId add(const char* type, Path path, Properties properties)
+    {
+        auto edit = scene_.items().begin("Add");
+        const Item& item = edit.add(type, scene_.root(), std::move(path));
+        for (const auto& [id, value] : properties.entries()) edit.set(item, id, value);
+        edit.commit();
+        return item.id();
+    }
+    static Path line(std::initializer_list<Vec2> points) { return Path::polygon(std::vector<Vec2>(points), false); }
+    /// With Box2D where joints are tried: it holds bodies of any outline.
+    std::unique_ptr<Simulation> play(double seconds, const char* engine = "jet-physics")
+    {
+        SimulationOptions options;
+        options.physics = engine;
+        auto simulation = Simulation::start(scene_, options).orThrow();
+        while (simulation->time() < seconds) simulation->step();
+        return simulation;
+    }
+    bool hasBox2d()
+    {
+        try {
+            catalog_.load("org.jet.physics-box2d");
+            return true;
+        } catch (const Failure&) {
+            return false;
+        }
+    }
+    static Vec2 at(const Simulation& simulation, ItemId item)
+    {
+        return simulation.world().bodies().position[simulation.bodyOf(item)];
+    }
+
+    TestCatalog catalog_{"org.jet.physics", "org.jet.items.physics", "org.jet.effect.in-path-rigid-body"};
+    EventsCenter events_;
+    Scene scene_;
+};
+
+TEST_F(PhysicsItemsTest, AHingeHoldsABodyAtTheMiddleOfItsPath)
+{
+    if (!hasBox2d()) GTEST_SKIP() << "built without Box2D";
+    const ItemId bob = body({{90, -10}, {110, 10}});
+    add("joint", line({{0, 0}, {0, 0}, {100, 0}}), {{"kind", "revolute"}});
+    const auto simulation = play(1.5, "physics-box2d");
+    EXPECT_TRUE(simulation->output().empty());
+    EXPECT_NEAR(at(*simulation, bob).norm(), 100, 1);
+    EXPECT_GT(at(*simulation, bob).y(), 30) << "it swings";
+}
+
+TEST_F(PhysicsItemsTest, ARopeAndAPulleyGoFromBodyToBody)
+{
+    if (!hasBox2d()) GTEST_SKIP() << "built without Box2D";
+    const ItemId light = body({{-30, 90}, {-10, 110}}), heavy = body({{10, 80}, {50, 120}});
+    auto edit = scene_.items().begin("Mass");
+    edit.setEffect(*scene_.items().find(heavy), 0, "mass", 3.0);
+    edit.commit();
+    add("joint", line({{-20, 100}, {-20, 0}, {30, 0}, {30, 100}}), {{"kind", "pulley"}});
+    const auto simulation = play(0.5, "physics-box2d");
+    ASSERT_EQ(simulation->world().jointCount(), 1u);
+    EXPECT_LT(at(*simulation, light).y(), 96);
+    EXPECT_NEAR(at(*simulation, light).y() + at(*simulation, heavy).y(), 200, 1);
+}
+
+TEST_F(PhysicsItemsTest, AJointThatCannotBeMadeSaysWhyAndTheGamePlays)
+{
+    body({{0, 0}, {50, 50}});
+    add("joint", line({{10, 10}, {40, 40}}), {{"kind", "weld"}});
+    add("joint", line({{500, 0}, {600, 0}}), {{"kind", "rope"}});
+    add("joint", line({{10, 10}, {600, 0}}), {{"kind", "pulley"}});
+    const auto simulation = play(0.1);
+    ASSERT_EQ(simulation->output().size(), 3u);
+    EXPECT_THAT(simulation->output()[0].text, HasSubstr("both ends lie in one body"));
+    EXPECT_THAT(simulation->output()[1].text, HasSubstr("no body lies under either end"));
+    EXPECT_THAT(simulation->output()[2].text, HasSubstr("four points"));
+    EXPECT_EQ(simulation->world().jointCount(), 0u);
+}
+
+TEST_F(PhysicsItemsTest, AFieldPushesWhatIsWithinItsPath)
+{
+    const Properties floating{{"gravity-scale", 0.0}};
+    const ItemId in = body({{0, 0}, {10, 10}}, floating), out = body({{200, 0}, {210, 10}}, floating);
+    add("force-field", Path::rectangle({{-20, -200}, {30, 40}}), {{"kind", "directional"}, {"vector", Vec2(0, -50)}});
+    const auto simulation = play(1);
+    EXPECT_TRUE(simulation->output().empty());
+    EXPECT_NEAR(at(*simulation, in).y(), 5 - 25, 1);
+    EXPECT_NEAR(at(*simulation, out).y(), 5, 1e-6);
+}
+
+TEST_F(PhysicsItemsTest, AnEngineWithoutFieldsSaysSoAndPlays)
+{
+    if (!hasBox2d()) GTEST_SKIP() << "built without Box2D";
+    body({{0, 0}, {10, 10}});
+    add("force-field", Path::rectangle({{-20, -20}, {30, 40}}), {{"kind", "vortex"}});
+    const auto simulation = play(0.1, "physics-box2d");
+    ASSERT_EQ(simulation->output().size(), 1u);
+    EXPECT_THAT(simulation->output()[0].text, HasSubstr("no fields of force"));
+}
+
+TEST_F(PhysicsItemsTest, BodiesTakeTheirPropertiesToTheWorld)
+{
+    if (!hasBox2d()) GTEST_SKIP() << "built without Box2D";
+    const ItemId lift = body({{0, 0}, {50, 10}}, {{"kinematic", true}, {"velocity", Vec2(0, -10)}});
+    const ItemId ghost = body({{100, 0}, {110, 10}}, {{"mask", std::int64_t{2}}});
+    body({{80, 40}, {140, 60}}, {{"fixed", true}});
+    const auto simulation = play(2, "physics-box2d");
+    EXPECT_NEAR(at(*simulation, lift).y(), 5 - 20, 0.5);
+    EXPECT_GT(at(*simulation, ghost).y(), 100) << "it meets layer 2 only";
+}
+
+TEST_F(PhysicsItemsTest, BothAreSeenWhileEditingOnly)
+{
+    for (const char* type : {"joint", "force-field"}) {
+        const Item& item = *scene_.items().find(add(type, line({{0, 0}, {10, 0}, {10, 10}}), {}));
+        for (const PaintPurpose purpose : {PaintPurpose::Edit, PaintPurpose::Play, PaintPurpose::Export}) {
+            RecordingPainter painter;
+            catalog_.itemType(type)->paint(item, item.path(), purpose, painter);
+            EXPECT_EQ(painter.strokes().empty(), purpose != PaintPurpose::Edit) << type;
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace jet::test
