@@ -58,9 +58,7 @@ BodyCommon SceneWorldBuilder::common(const Item& item)
     common.kinematic = own.get("kinematic", table).as<bool>();
     common.fixedRotation = own.get("fixed-rotation", table).as<bool>();
     common.oneSided = own.get("one-sided", table).as<Vec2>();
-    const auto bits = [&](const char* id) {
-        return static_cast<std::uint32_t>(own.get(id, table).as<std::int64_t>());
-    };
+    const auto bits = [&](const char* id) { return static_cast<std::uint32_t>(own.get(id, table).as<std::int64_t>()); };
     common.group = bits("group"), common.layer = bits("layer"), common.mask = bits("mask");
     common.allowSleep = own.get("allow-sleep", table).as<bool>();
     const auto material = own.get("material", table).as<std::string>();

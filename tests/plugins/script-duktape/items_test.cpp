@@ -105,7 +105,8 @@ TEST_F(ScriptItemsTest, WrongPropertiesAreRefusedWithTheReason)
     EXPECT_EQ(
         lines,
         (Lines{"TypeError: get: \"Ball\" has no property \"wings\"; it has name, visible, locked, fixed, material, "
-               "velocity, omega, gravity-scale, sensor, kinematic, fixed-rotation, one-sided, group, layer, mask, allow-sleep",
+               "velocity, omega, gravity-scale, sensor, kinematic, fixed-rotation, one-sided, group, layer, mask, "
+               "allow-sleep",
                "TypeError: set: expected a finite number, got \"fast\"",
                "TypeError: set: expected a finite number, got NaN", "TypeError: type: this cannot change while playing",
                "TypeError: getTopGroup: expected an item, got an object"}));
