@@ -2,6 +2,7 @@
 #include "system_error.hpp"
 
 #include <jet/editor.hpp>
+#include <jet/project_tree.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -94,6 +95,8 @@ Journal::Private::Private(Project& p, fs::path f) : project(p), folder(std::move
     auto& events = project.events_;
     subscriptions_.push_back(
         events.subscribe<ProjectChanged>(nullptr, [this](const ProjectChanged&) { recordStructure(); }));
+    subscriptions_.push_back(
+        events.subscribe<ProjectTreeChanged>(&project, [this](const ProjectTreeChanged&) { recordStructure(); }));
     // A scene nobody told of: it came into the tree by another way than Project::addScene().
     subscriptions_.push_back(events.subscribe<ItemsChanged>(nullptr, [this](const ItemsChanged& event) {
         if (!scenes_.contains(event.scene) && sceneOf(event.scene)) record(event);
@@ -209,13 +212,20 @@ Result<void> Journal::Private::appendNewScenes()
     return {};
 }
 
-// The scene before its first change, if its file still holds that; else as it is now, the change in it.
-Result<void> Journal::Private::appendBase(Scene& scene, Tracked& tracked, bool& isBefore)
+BaseRecord Journal::Private::baseOf(const Scene& scene, Tracked& tracked) const
 {
     BaseRecord base;
     base.scene = tracked.key, base.file = fileOf(scene);
     const auto known = project.files_->known.find(base.file);
     if (known != project.files_->known.end() && !base.file.empty()) base.fileHash = known->second.hash;
+    tracked.fileHash = base.fileHash;
+    return base;
+}
+
+// The scene before its first change, if its file still holds that; else as it is now, the change in it.
+Result<void> Journal::Private::appendBase(Scene& scene, Tracked& tracked, bool& isBefore)
+{
+    BaseRecord base = baseOf(scene, tracked);
     isBefore = false;
     if (tracked.isAsFile) {
         auto text = readFile(project.folder() / base.file);
@@ -291,10 +301,8 @@ Result<void> Journal::Private::writeSnapshot(JournalWriter& to)
     for (Scene* scene : project.scenes()) {
         const bool clean = scene->undoRedo().isClean() && !project.files_->unsaved.contains(scene);
         if (clean && !fileOf(*scene).empty()) continue;
-        BaseRecord base;
-        base.scene = track(*scene).key, base.file = fileOf(*scene), base.text = writeSceneText(*scene);
-        const auto known = project.files_->known.find(base.file);
-        if (known != project.files_->known.end() && !base.file.empty()) base.fileHash = known->second.hash;
+        BaseRecord base = baseOf(*scene, track(*scene));
+        base.text = writeSceneText(*scene);
         if (auto done = to.append(RecordKind::Base, base.encode()); !done) return done;
     }
     return to.append(RecordKind::Changes, ChangesRecord{millisecondsNow(), 0, changes, {}}.encode());
@@ -345,6 +353,7 @@ void Journal::Private::aboutToSave(std::span<const FileToWrite> files, bool else
 {
     if (!writer || elsewhere || broken_) return;
     recordStructure();  // the files of new scenes have their names now
+    if (const auto done = appendBasesOfTakenFiles(files); !done) return failed(done.error());
     SaveRecord record;
     for (const FileToWrite& written : files) {
         const auto tracked = scenes_.find(written.scene);
@@ -357,6 +366,22 @@ void Journal::Private::aboutToSave(std::span<const FileToWrite> files, bool else
     auto synced = writer->sync();
     if (synced) synced = syncFolder(folder);
     if (!synced) failed(synced.error());
+}
+
+// A new scene may get the file of one that was removed. Ending before it is written, that file holds what nobody else
+// wrote, although nothing the journal tells of this scene explains it: its base is told again, with that file.
+Result<void> Journal::Private::appendBasesOfTakenFiles(std::span<const FileToWrite> files)
+{
+    for (const FileToWrite& written : files) {
+        const auto tracked = scenes_.find(written.scene);
+        const auto known = project.files_->known.find(written.path);
+        if (tracked == scenes_.end() || !tracked->second.based || known == project.files_->known.end()) continue;
+        if (known->second.hash == tracked->second.fileHash) continue;
+        BaseRecord base = baseOf(*written.scene, tracked->second);
+        base.text = written.content;
+        if (auto done = append(RecordKind::Base, base.encode()); !done) return done;
+    }
+    return {};
 }
 
 void Journal::Private::saved() { discard(); }

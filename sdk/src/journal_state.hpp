@@ -41,7 +41,11 @@ public:
     Private(Project& p, std::filesystem::path f);
     ~Private() override;
 
-    void sceneAdded(Scene& scene) override { track(scene); }
+    void sceneAdded(Scene& scene) override
+    {
+        scenes_.erase(&scene);  // what another scene at this address was, before anybody told of its end
+        track(scene);
+    }
     void aboutToSave(std::span<const FileToWrite> files, bool elsewhere) override;
     void saved() override;
 
@@ -62,8 +66,9 @@ public:
 private:
     struct Tracked {
         SceneKey key = 0;
-        bool isAsFile = false;  ///< before its next change it is what its file holds
-        bool based = false;     ///< its base is in the journal
+        bool isAsFile = false;       ///< before its next change it is what its file holds
+        bool based = false;          ///< its base is in the journal
+        std::uint64_t fileHash = 0;  ///< of its file, as its base tells it
         Subscription changed;
     };
 
@@ -75,6 +80,8 @@ private:
     Result<void> appendNewScenes();
     Result<void> append(RecordKind kind, const std::string& content);
     Result<void> appendBase(Scene& scene, Tracked& tracked, bool& isBefore);
+    BaseRecord baseOf(const Scene& scene, Tracked& tracked) const;
+    Result<void> appendBasesOfTakenFiles(std::span<const FileToWrite> files);
     Result<void> writeSnapshot(JournalWriter& to);
     void failed(const Error& error);
     void beginAnew();

@@ -3,6 +3,7 @@
 #include "support/random_edits.hpp"
 
 #include <jet/journal.hpp>
+#include <jet/project_tree.hpp>
 
 #include <gmock/gmock.h>
 
@@ -218,6 +219,67 @@ TEST_F(JournalTest, WhatASaveWroteBeforeTheEndIsNotDoneTwice)
     const Recovery recovery = recover();
     EXPECT_EQ(recovery.project->hash(), project->hash());
     EXPECT_EQ(recovery.project->scenes()[0]->items().itemCount(), 4u) << "layer and three shapes, none twice";
+}
+
+TEST_F(JournalTest, StepsOfTheProjectTreeAreRecoveredDoneAndUndone)
+{
+    for (const bool untitled : {false, true}) {
+        fs::remove_all(journals), fs::remove_all(folder / "game");
+        auto project = untitled ? Project::create("Untitled", events, catalog) : saved();
+        const Journal journal(*project, journals);
+        ProjectTree tree(*project, events);
+        const auto expectRecovered = [&](const char* what) {
+            const auto found = findJournals(journals);
+            ASSERT_EQ(found.size(), 1u) << what;
+            const auto recovery = recoverProject(found.front().file, events, catalog).orThrow();
+            EXPECT_EQ(recovery.project->hash(), project->hash()) << what;
+            EXPECT_THAT(recovery.notes, IsEmpty()) << what;
+        };
+        Filter& more = tree.addFilter("More", project->root());
+        expectRecovered("add a filter");
+        Scene& added = tree.addScene("Level 2", more);
+        draw(added);
+        expectRecovered("add a scene and draw in it");
+        tree.rename(added, "Level two"), tree.rename(more, "Even more"), tree.renameProject("Renamed");
+        expectRecovered("rename");
+        tree.move(added, project->root(), 0);
+        expectRecovered("move");
+        Scene& first = *project->scenes().back();
+        draw(first, 30);
+        tree.remove(first);
+        expectRecovered("remove a changed scene");
+        tree.undo();
+        expectRecovered("and undo that");
+        draw(first, 60);
+        expectRecovered("and draw in what came back");
+        tree.redo(), tree.undo(), tree.undo();
+        expectRecovered("undo the move");
+        tree.goTo(0);
+        expectRecovered("undo all");
+    }
+}
+
+TEST_F(JournalTest, ANewSceneThatTakesTheFileOfARemovedOneIsSavedAfterTheEndWithoutAQuestion)
+{
+    auto project = saved();
+    std::uint64_t hash = 0;
+    {
+        Journal journal(*project, journals);
+        project->removeScene(*project->scene("Level 1"));
+        draw(project->addScene("Level 1"), 500);
+        draw(*project->scene("Level 1"), 700);
+        hash = project->hash();
+        // The process ends where the file is about to be written: here, because it cannot be.
+        const fs::path part = folder / "game/scenes" / (".Level 1.scene." + std::to_string(::getpid()) + ".part");
+        fs::create_directory(part);
+        EXPECT_FALSE(project->save());
+        fs::remove(part);
+    }
+    Recovery recovery = recover();
+    EXPECT_EQ(recovery.project->hash(), hash);
+    EXPECT_THAT(recovery.notes, IsEmpty()) << recovery.notes.front();
+    recovery.project->save().orThrow();
+    EXPECT_EQ(Project::load(folder / "game", events, catalog).orThrow()->hash(), hash);
 }
 
 TEST_F(JournalTest, ItemsAndEffectsOfAbsentPluginsAreRecoveredAsTheyWere)

@@ -59,8 +59,8 @@ public:
     std::size_t changeCount() const;
     /// Forgets the changes: the file goes.
     void discard();
-    /// Compares the tree of filters and scenes with what was recorded, and records the difference. ProjectChanged does
-    /// this by itself.
+    /// Compares the tree of filters and scenes with what was recorded, and records the difference. ProjectChanged and
+    /// ProjectTreeChanged do this by themselves.
     void recordStructure();
     /// After a recovery: the project's unsaved state becomes this journal's first record, so that the recovered
     /// journal may be removed. `unsaved` is the number of changes it stands for: findJournals() leaves out journals
