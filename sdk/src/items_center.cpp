@@ -339,8 +339,7 @@ void ItemsChanged::Burst::add(const ItemsChanged& event)
                std::holds_alternative<ItemMoved>(change);
     }
     std::ranges::sort(items);
-    const auto repeated = std::ranges::unique(items);
-    items.erase(repeated.begin(), repeated.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 ItemsCenter::ItemsCenter(Scene& scene, EventsCenter& events, Catalog& catalog)

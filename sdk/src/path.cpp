@@ -294,8 +294,7 @@ void Path::transform(const Affine& m, std::span<const std::size_t> segments)
 {
     std::vector<std::size_t> sorted(segments.begin(), segments.end());
     std::ranges::sort(sorted);
-    const auto repeated = std::ranges::unique(sorted);
-    sorted.erase(repeated.begin(), repeated.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
 
     auto next = sorted.begin();
     std::size_t first = 0;  // index of the contour's first segment

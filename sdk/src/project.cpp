@@ -114,16 +114,10 @@ bool Project::isModified() const
     });
 }
 
-std::filesystem::path Project::folder() const
-{
-    return files_->unpacked.empty() ? file_.parent_path() : files_->unpacked;
-}
+std::filesystem::path Project::folder() const { return file_.parent_path(); }
 
 std::vector<std::filesystem::path> Project::changedOnDisk() const
 {
-    if (!files_->archive.empty())
-        return differsOnDisk(files_->archive, files_->archiveState) ? std::vector{files_->archive}
-                                                                    : std::vector<std::filesystem::path>();
     std::vector<std::filesystem::path> changed;
     for (const auto& [path, state] : files_->known)
         if (differsOnDisk(folder() / path, state)) changed.push_back(folder() / path);

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kVersionMark = "-version-";
+
 // "project.jet" -> ".jet-backups/project"
 fs::path backupsOf(const fs::path& folder, const std::string& project)
 {
@@ -76,6 +78,14 @@ void ignoreFolder(const fs::path& folder)
         (void)writeFileAtomically(folder / ".gitignore", std::string_view("*\n"));
 }
 
+// Originals of older formats stay.
+void removeOldest(std::vector<Backup>& backups, std::size_t kept)
+{
+    std::erase_if(backups, [](const Backup& backup) { return backup.name.find(kVersionMark) != std::string::npos; });
+    std::error_code ignored;
+    for (std::size_t i = kept; i < backups.size(); ++i) fs::remove_all(backups[i].folder, ignored);
+}
+
 Result<void> fillBackup(const fs::path& folder, const fs::path& target, const fs::path& previous,
                         const std::set<std::string>& files)
 {
@@ -96,10 +106,24 @@ Result<void> fillBackup(const fs::path& folder, const fs::path& target, const fs
     return {};
 }
 
+// The scene files of all projects in the folder.
+std::set<std::string> scenesIn(const fs::path& folder)
+{
+    std::set<std::string> scenes;
+    std::error_code problem;
+    fs::recursive_directory_iterator at(folder.empty() ? fs::path(".") : folder, problem);
+    for (; !problem && at != fs::recursive_directory_iterator(); at.increment(problem)) {
+        if (at->path().filename() == ".jet-backups") at.disable_recursion_pending();
+        if (at->path().extension() == ".scene")
+            scenes.insert(at->path().lexically_relative(folder.empty() ? fs::path(".") : folder).string());
+    }
+    return scenes;
+}
+
 }  // namespace
 
 Result<void> backUp(const fs::path& folder, const std::string& project, const std::set<std::string>& files,
-                    std::size_t count)
+                    std::size_t count, std::optional<int> formatVersion)
 {
     std::error_code problem;
     const bool any = std::ranges::any_of(files, [&](const std::string& f) { return fs::exists(folder / f, problem); });
@@ -111,6 +135,7 @@ Result<void> backUp(const fs::path& folder, const std::string& project, const st
     auto before = backupsIn(all);
     std::string name = timeName();
     if (!before.empty() && name <= before.front().name) name = before.front().name + "a";  // the clock went back
+    if (formatVersion) name += kVersionMark + std::to_string(*formatVersion);
     const fs::path unfinished = all / ("." + name + ".part");
     auto filled = fillBackup(folder, unfinished, before.empty() ? fs::path() : before.front().folder, files);
     if (filled) {
@@ -121,7 +146,7 @@ Result<void> backUp(const fs::path& folder, const std::string& project, const st
         fs::remove_all(unfinished, problem);
         return filled;
     }
-    for (std::size_t i = count > 0 ? count - 1 : 0; i < before.size(); ++i) fs::remove_all(before[i].folder, problem);
+    if (!formatVersion) removeOldest(before, count > 0 ? count - 1 : 0);
     return {};
 }
 
@@ -130,6 +155,13 @@ std::vector<Backup> findBackups(const fs::path& projectFile)
     const auto file = findProjectFile(projectFile);
     return backupsIn(
         backupsOf((file ? *file : projectFile).parent_path(), (file ? *file : projectFile).filename().string()));
+}
+
+Result<void> backUpProject(const fs::path& projectFile)
+{
+    std::set<std::string> files = scenesIn(projectFile.parent_path());
+    files.insert(projectFile.filename().string());
+    return backUp(projectFile.parent_path(), projectFile.filename().string(), files, Project::kDefaultBackups);
 }
 
 Result<void> restoreBackup(const fs::path& projectFile, const std::string& name)
@@ -152,11 +184,8 @@ Result<void> restoreBackup(const fs::path& projectFile, const std::string& name)
         if (!content) return content.error();
         contents.emplace(file, std::move(*content));
     }
-    std::set<std::string> present = files;
-    for (auto at = fs::recursive_directory_iterator(folder, problem); at != fs::recursive_directory_iterator(); ++at) {
-        if (at->path().filename() == ".jet-backups") at.disable_recursion_pending();
-        if (at->path().extension() == ".scene") present.insert(fs::relative(at->path(), folder, problem).string());
-    }
+    std::set<std::string> present = scenesIn(folder);
+    present.insert(files.begin(), files.end());
     if (const auto kept = backUp(folder, project, present, Project::kDefaultBackups + 1); !kept) return kept;
     // project.jet last, as when saving.
     const auto put = [&](const std::string& file) -> Result<void> {

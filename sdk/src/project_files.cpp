@@ -8,12 +8,6 @@ namespace jet {
 
 namespace fs = std::filesystem;
 
-Project::Files::~Files()
-{
-    std::error_code ignored;
-    if (!unpacked.empty()) fs::remove_all(unpacked, ignored);
-}
-
 std::uint64_t contentHash(std::string_view content)
 {
     Hasher h;

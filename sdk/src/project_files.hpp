@@ -52,15 +52,14 @@ struct Project::Files {
     ProjectWatcher* watcher = nullptr;
     std::size_t backups = kDefaultBackups;
     std::vector<std::string> notes;  ///< of the last save
-    std::filesystem::path archive;   ///< the .jetz file this project lives in; empty for a folder
-    FileState archiveState;          ///< of that file
-    std::filesystem::path unpacked;  ///< private folder with its content, removed with the project
-    ~Files();
+    std::set<std::string> migrated;  ///< files read from an older format, not written since; paths as in `known`
+    int oldestVersion = 0;           ///< of theirs
 };
 
 /// Copies what the project's files are now into a new folder of .jet-backups, and removes the oldest beyond `count`.
-/// Files are paths relative to `folder`; those that do not exist are left out. Unchanged files share their space.
+/// Files are paths relative to `folder`; those that do not exist are left out. Unchanged files share their space. With
+/// a `formatVersion` it is the original of a project of that version: it stays, and does not count.
 Result<void> backUp(const std::filesystem::path& folder, const std::string& project, const std::set<std::string>& files,
-                    std::size_t count);
+                    std::size_t count, std::optional<int> formatVersion = {});
 
 }  // namespace jet

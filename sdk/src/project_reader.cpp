@@ -1,3 +1,4 @@
+#include "migration.hpp"
 #include "project_files.hpp"
 #include "xml_text.hpp"
 
@@ -24,9 +25,8 @@ public:
         if (std::string_view(root.name()) != "jet-project")
             source_.fail(root,
                          "a project file starts with <jet-project>, this one with <" + std::string(root.name()) + ">");
-        if (source_.required(root, "version") != "1")
-            source_.fail(root, "this project has format version " + std::string(root.attribute("version").value()) +
-                                   "; this JET reads version 1: open it with a newer JET");
+        const int version = migrate(source_);
+        if (version != kFormatVersion) noteMigration(project_.file_.filename().string(), version);
         source_.onlyAttributes(root, {"version", "name"});
         project_.name_ = source_.required(root, "name");
         bool found = false;
@@ -45,7 +45,25 @@ public:
         if (!found) source_.fail(root, "the project has no <filter>; add <filter name=\"Filter0\"> with its scenes");
     }
 
+    /// Tells the user, once, when files are of an older version of the format.
+    void tellMigration()
+    {
+        auto& files = *project_.files_;
+        if (files.migrated.empty()) return;
+        project_.notes_.push_back({"this project is of format version " + std::to_string(files.oldestVersion) +
+                                       "; saving writes it as version " + std::to_string(kFormatVersion) +
+                                       " and keeps the original among the backups",
+                                   Location{project_.file_.string(), 0, 0}});
+    }
+
 private:
+    void noteMigration(const std::string& file, int version)
+    {
+        auto& files = *project_.files_;
+        files.oldestVersion = files.migrated.empty() ? version : std::min(files.oldestVersion, version);
+        files.migrated.insert(file);
+    }
+
     void readPlugins(const pugi::xml_node& node)
     {
         for (const pugi::xml_node child : node.children()) {
@@ -112,9 +130,11 @@ private:
             source_.fail(node, "the scene file '" + relative +
                                    "' is missing; restore it, or remove this line to go on without '" + name + "'");
         auto text = readKnown(file, relative);
-        auto scene =
-            readSceneText(std::move(text), file.string(), project_.events_, project_.catalog_, project_.notes_);
+        int version = kFormatVersion;
+        auto scene = readSceneText(std::move(text), file.string(), project_.events_, project_.catalog_, project_.notes_,
+                                   version);
         if (!scene) throw Failure(scene.error());
+        if (version != kFormatVersion) noteMigration(relative, version);
         (*scene)->setName(name);
         (*scene)->setAssetFolder(project_.folder().string());
         (*scene)->undoRedo().markClean();
@@ -144,7 +164,12 @@ private:
 Result<fs::path> findProjectFile(const fs::path& path)
 {
     std::error_code ignored;
-    if (!fs::is_directory(path, ignored)) return path;
+    if (!fs::is_directory(path, ignored)) {
+        if (extensionOf(path) != "jetz") return path;
+        return Error("this is a project packed into one file, for sending; unpack it with 'jet project unpack', then "
+                     "use the folder",
+                     Location{path.string(), 0, 0});
+    }
     if (fs::exists(path / "project.jet", ignored)) return path / "project.jet";
     std::vector<fs::path> candidates;
     for (const auto& entry : fs::directory_iterator(path, ignored))
@@ -171,7 +196,9 @@ Result<std::unique_ptr<Project>> Project::load(const fs::path& path, EventsCente
     project->file_ = *file;
     project->files_->known[file->filename().string()] = known;
     try {
-        ProjectReader(source, *project, progress).read();
+        ProjectReader reader(source, *project, progress);
+        reader.read();
+        reader.tellMigration();
     } catch (const Failure& failure) {
         return failure.error();
     }

@@ -38,6 +38,7 @@ private:
         const std::string structure = project_.structure();
         std::vector<FileToWrite> files = filesToWrite(everything, structure);
         if (const auto free = checkForeign(files); !free) return free;
+        if (const auto kept = keepOriginal(); !kept) return kept;
         if (!files.empty()) backUpOld(files);
         if (files_.watcher) files_.watcher->aboutToSave(files, everything);
         for (FileToWrite& file : files) {
@@ -51,6 +52,7 @@ private:
         project_.savedStructure_ = structure;
         for (Scene* scene : project_.scenes()) scene->undoRedo().markClean();
         files_.unsaved.clear();
+        files_.migrated.clear();
         files_.structureUnsaved = false;
         removeObsolete();
         if (files_.watcher) files_.watcher->saved();
@@ -83,12 +85,14 @@ private:
             const std::string& path = project_.sceneFiles_[scene];
             const bool same = scene->undoRedo().isClean() && !fresh_.contains(scene) && !files_.unsaved.contains(scene);
             // A file that has gone is written again: the project in memory may be all there is of it.
-            if (everything || !same || !fs::exists(folder_ / path, ignored) || isReplaced(path))
+            if (everything || !same || files_.migrated.contains(path) || !fs::exists(folder_ / path, ignored) ||
+                isReplaced(path))
                 add(path, scene, writeSceneText(*scene));
         }
         const std::string name = project_.file_.filename().string();
-        if (everything || files_.structureUnsaved || structure != project_.savedStructure_ || usesChanged() ||
-            !fs::exists(folder_ / name, ignored) || isReplaced(name))
+        if (everything || files_.structureUnsaved || files_.migrated.contains(name) ||
+            structure != project_.savedStructure_ || usesChanged() || !fs::exists(folder_ / name, ignored) ||
+            isReplaced(name))
             add(name, nullptr, text(structure));
         return files;
     }
@@ -112,6 +116,20 @@ private:
                          Location{(folder_ / file.path).string(), 0, 0});
         }
         return {};
+    }
+
+    /// A project of an older format, before it is written in this one for the first time.
+    Result<void> keepOriginal()
+    {
+        if (files_.migrated.empty()) return {};
+        std::set<std::string> paths;
+        for (const auto& [path, state] : files_.known) paths.insert(path);
+        auto kept = backUp(folder_, project_.file_.filename().string(), paths, files_.backups, files_.oldestVersion);
+        if (kept) return kept;
+        return Error("the project was not saved, since the original of format version " +
+                         std::to_string(files_.oldestVersion) + " cannot be kept: " + kept.error().message +
+                         "; or save it in another place",
+                     kept.error().where);
     }
 
     void backUpOld(const std::vector<FileToWrite>& files)
@@ -246,22 +264,28 @@ private:
 Result<void> Project::save(Overwrite overwrite)
 {
     if (file_.empty()) return Error("the project has no file yet; choose where to save it");
-    if (overwrite == Overwrite::Refuse && !isModified() && !savedStructure_.empty()) return {};
+    if (overwrite == Overwrite::Refuse && !isModified() && files_->migrated.empty() && !savedStructure_.empty())
+        return {};
     return ProjectWriter(*this, overwrite).write(false);
 }
 
 Result<void> Project::saveAs(const fs::path& folderOrFile)
 {
+    if (extensionOf(folderOrFile) == "jetz")
+        return Error("a packed project is not worked on; save in a folder, then pack that with 'jet project pack'",
+                     Location{folderOrFile.string(), 0, 0});
     const fs::path old = file_;
     const auto oldScenes = sceneFiles_;
     const auto oldObsolete = obsoleteFiles_;
     const auto oldKnown = files_->known;
+    const auto oldMigrated = files_->migrated;
     file_ = folderOrFile.extension() == ".jet" ? folderOrFile : folderOrFile / "project.jet";
     std::error_code ignored;
     if (!fs::equivalent(old, file_, ignored)) {
         sceneFiles_.clear();
         obsoleteFiles_.clear();  // they belong to the project left behind
         files_->known.clear();
+        files_->migrated.clear();  // the original stays where it is
     }
     auto written = ProjectWriter(*this, Overwrite::Allow).write(true);
     if (!written) {
@@ -269,6 +293,7 @@ Result<void> Project::saveAs(const fs::path& folderOrFile)
         sceneFiles_ = oldScenes;
         obsoleteFiles_ = oldObsolete;
         files_->known = oldKnown;
+        files_->migrated = oldMigrated;
     }
     for (Scene* scene : scenes()) scene->setAssetFolder(folder().string());
     return written;

@@ -1,3 +1,4 @@
+#include "migration.hpp"
 #include "scene_fast_reader.hpp"
 #include "scene_state.hpp"
 #include "xml_text.hpp"
@@ -23,10 +24,8 @@ public:
         const pugi::xml_node root = source_.document.document_element();
         if (std::string_view(root.name()) != "scene")
             source_.fail(root, "a scene file starts with <scene>, this one with <" + std::string(root.name()) + ">");
+        version = migrate(source_);
         source_.onlyAttributes(root, {"version"});
-        if (source_.required(root, "version") != "1")
-            source_.fail(root, "this scene has format version " + std::string(root.attribute("version").value()) +
-                                   "; this JET reads version 1: open it with a newer JET");
         for (const pugi::xml_node child : root.children()) {
             const std::string_view name = child.name();
             if (name == "settings") {
@@ -42,6 +41,8 @@ public:
             }
         }
     }
+
+    int version = kFormatVersion;  ///< of the text, told by read()
 
 private:
     // What stands twice would be lost by half.
@@ -245,7 +246,9 @@ std::unique_ptr<Scene> readOwnText(const std::string& text, const std::string& f
     try {
         XmlSource head(file, text.substr(0, items) + "</scene>\n");
         if (!head.parse()) return nullptr;
-        SceneTextReader(head, *scene, catalog, remarks).read();
+        SceneTextReader reader(head, *scene, catalog, remarks);
+        reader.read();
+        if (reader.version != kFormatVersion) return nullptr;
         if (!readItems(std::string_view(text).substr(items), *scene)) return nullptr;
     } catch (const Failure&) {
         return nullptr;
@@ -257,18 +260,28 @@ std::unique_ptr<Scene> readOwnText(const std::string& text, const std::string& f
 }  // namespace
 
 Result<std::unique_ptr<Scene>> readSceneText(std::string text, const std::string& file, EventsCenter& events,
-                                             Catalog& catalog, std::vector<FormatNote>& notes)
+                                             Catalog& catalog, std::vector<FormatNote>& notes, int& version)
 {
+    version = kFormatVersion;
     if (auto own = readOwnText(text, file, events, catalog, notes)) return own;
     XmlSource source(file, std::move(text));
     if (const auto parsed = source.parse(); !parsed) return parsed.error();
     auto scene = std::make_unique<Scene>("", events, catalog);
     try {
-        SceneTextReader(source, *scene, catalog, notes).read();
+        SceneTextReader reader(source, *scene, catalog, notes);
+        reader.read();
+        version = reader.version;
     } catch (const Failure& failure) {
         return failure.error();
     }
     return scene;
+}
+
+Result<std::unique_ptr<Scene>> readSceneText(std::string text, const std::string& file, EventsCenter& events,
+                                             Catalog& catalog, std::vector<FormatNote>& notes)
+{
+    int version = 0;
+    return readSceneText(std::move(text), file, events, catalog, notes, version);
 }
 
 }  // namespace jet

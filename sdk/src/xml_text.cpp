@@ -95,7 +95,7 @@ Result<void> XmlSource::checkBytes() const
             section = text.find("<![CDATA[", end);
             continue;
         }
-        if (!isStorableReference(std::string_view(text).substr(at, 40)))
+        if (!isStorableReference(std::string_view(text).substr(at)))
             return Error("this reference names no character; remove it",
                          lines.at(file, static_cast<std::ptrdiff_t>(at)));
         at = text.find("&#", at + 2);

@@ -70,8 +70,8 @@ public:
     /// Writes what changed; each file atomically, project.jet last, so that a crash leaves a project that opens. The
     /// files it replaces go to the backups first.
     Result<void> save(Overwrite overwrite = Overwrite::Refuse);
-    /// Writes everything to another folder, .jet file or .jetz file, which is the project's from then on. Replaces the
-    /// project that is there: ask before.
+    /// Writes everything to another folder or .jet file, which is the project's from then on. Replaces the project that
+    /// is there: ask before.
     Result<void> saveAs(const std::filesystem::path& folderOrFile);
     /// Anything not saved?
     bool isModified() const;
@@ -83,7 +83,7 @@ public:
     void setBackupCount(std::size_t count);
     /// The newest first.
     std::vector<Backup> backups() const;
-    /// Where the project's files lie: the folder of file(), for a .jetz file that of its unpacked content.
+    /// Where the project's files lie: the folder of file().
     std::filesystem::path folder() const;
 
     /// Loaded with these remarks (missing plugins, placeholders).
@@ -110,13 +110,14 @@ private:
     std::unique_ptr<Files> files_;
     friend class ProjectReader;
     friend class ProjectWriter;
-    friend class ProjectArchive;
     friend class ProjectRecovery;
     friend class Journal;
 };
 
 /// Puts a backup's files back in place. The state they replace becomes the newest backup.
 JET_API Result<void> restoreBackup(const std::filesystem::path& projectFile, const std::string& name);
+/// Keeps the project's files as they are now as the newest backup: for programs that change them by themselves.
+JET_API Result<void> backUpProject(const std::filesystem::path& projectFile);
 /// The same as Project::backups(), for a project that cannot be opened.
 JET_API std::vector<Backup> findBackups(const std::filesystem::path& projectFile);
 /// The .jet file meant by a folder, or the file itself; an Error where there is none or several.
