@@ -1,6 +1,7 @@
 // index.json as text and back.
-#include "entry_name.hpp"
 #include "repository.hpp"
+
+#include "host/archive/entry_name.hpp"
 
 #include <nlohmann/json.hpp>
 

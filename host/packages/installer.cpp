@@ -1,7 +1,6 @@
 #include "installer.hpp"
 
-#include "disk.hpp"
-
+#include "host/archive/disk.hpp"
 #include "host/plugins/guard.hpp"
 #include "host/plugins/plugin_library.hpp"
 #include "host/process/child_process.hpp"

@@ -1,6 +1,6 @@
 #include "package.hpp"
 
-#include "entry_name.hpp"
+#include "host/archive/entry_name.hpp"
 
 #include <jet/format.hpp>
 

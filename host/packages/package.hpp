@@ -1,8 +1,7 @@
 // A package: the zip of a built plugin folder, named *.jetplugin, with plugin.json at its top (docs/packages.md).
 #pragma once
 
-#include "archive.hpp"
-
+#include "host/archive/archive.hpp"
 #include "host/plugins/manifest.hpp"
 
 #include <filesystem>

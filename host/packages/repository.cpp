@@ -1,9 +1,9 @@
 #include "repository.hpp"
 
-#include "entry_name.hpp"
 #include "package.hpp"
 #include "sha256.hpp"
 
+#include "host/archive/entry_name.hpp"
 #include "host/plugins/plugin_library.hpp"
 
 #include <jet/format.hpp>

@@ -1,7 +1,6 @@
 #include "source.hpp"
 
-#include "entry_name.hpp"
-
+#include "host/archive/entry_name.hpp"
 #include "host/process/child_process.hpp"
 
 #include <jet/format.hpp>

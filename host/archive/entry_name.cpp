@@ -16,6 +16,29 @@ std::string lowerCase(std::string_view text)
     return lower;
 }
 
+bool isUtf8(std::string_view text)
+{
+    for (std::size_t i = 0; i < text.size();) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        const std::size_t length = lead < 0x80   ? 1
+                                   : lead < 0xc2 ? 0
+                                   : lead < 0xe0 ? 2
+                                   : lead < 0xf0 ? 3
+                                   : lead < 0xf5 ? 4
+                                                 : 0;
+        if (length == 0 || i + length > text.size()) return false;
+        for (std::size_t k = 1; k < length; ++k)
+            if ((static_cast<unsigned char>(text[i + k]) & 0xc0U) != 0x80U) return false;
+        const auto second = length > 1 ? static_cast<unsigned char>(text[i + 1]) : 0U;
+        // Longer than needed, halves of pairs, beyond the last character.
+        if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) || (lead == 0xf0 && second < 0x90) ||
+            (lead == 0xf4 && second > 0x8f))
+            return false;
+        i += length;
+    }
+    return true;
+}
+
 Result<void> checkPart(std::string_view part)
 {
     if (part.empty()) return Error("its name has an empty part");
@@ -29,15 +52,19 @@ Result<void> checkPart(std::string_view part)
 
 }  // namespace
 
-Result<void> checkEntryName(std::string_view name)
+Result<void> checkEntryName(std::string_view name, bool unicode)
 {
     if (name.empty()) return Error("its name is empty");
     if (name.size() > kLongestName)
         return Error("its name is longer than " + std::to_string(kLongestName) + " characters");
     for (const char c : name) {
-        if (c < ' ' || c > '~') return Error("its name has a character other than printable ASCII");
+        const bool beyond = static_cast<unsigned char>(c) >= 0x80;
+        if (beyond ? !unicode : c < ' ' || c > '~')
+            return Error(unicode ? "its name has a control character"
+                                 : "its name has a character other than printable ASCII");
         if (c == '\\' || c == ':') return Error(std::string("its name has a '") + c + "'");
     }
+    if (!isUtf8(name)) return Error("its name is not UTF-8");
     if (name.front() == '/') return Error("its name is an absolute path");
     if (static_cast<std::size_t>(std::count(name.begin(), name.end(), '/')) >= kDeepest)
         return Error("it lies more than " + std::to_string(kDeepest) + " folders deep");

@@ -11,13 +11,17 @@
 
 namespace jet::host {
 
-/// What a package may be at most. A zip bomb meets one of them before it has filled anything.
+/// What an archive may be at most, and what it is called. A zip bomb meets one of the limits before it has filled
+/// anything.
 struct ArchiveLimits {
-    std::size_t packageBytes = 256U << 20;    ///< of the package itself
+    std::size_t packageBytes = 256U << 20;    ///< of the archive itself
     std::size_t unpackedBytes = 1024U << 20;  ///< of all files together
     std::size_t files = 10'000;
     std::size_t ratio = 200;  ///< unpacked to packed, once more than `ratioFrom` came out
     std::size_t ratioFrom = 4U << 20;
+    bool unicodeNames = false;               ///< names in UTF-8, as people give them; else ASCII only
+    const char* what = "package";            ///< in messages: "this package is refused"
+    const char* maker = "jet plugins pack";  ///< the command that makes one
 };
 
 struct ArchiveFile {
@@ -28,6 +32,9 @@ struct ArchiveFile {
 
 /// A zip with these files in the order of their names, without times, owners or folders: equal files, equal bytes.
 Result<std::string> writeZip(std::vector<ArchiveFile> files);
+
+/// Would unpackZip() take it? Reads all of it, writes nothing.
+Result<void> checkZip(std::string_view bytes, const std::filesystem::path& package, const ArchiveLimits& limits = {});
 
 /// Unpacks into `folder`, which exists and is empty. Refuses, naming the entry: names that lead elsewhere or meet each
 /// other, symbolic and hard links, devices, encrypted entries, and what exceeds the limits. After an error the folder

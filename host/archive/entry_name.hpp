@@ -10,8 +10,9 @@
 namespace jet::host {
 
 /// May this be the relative name of a file in a package or repository? Parts of printable ASCII joined by '/', none of
-/// them empty, "." or "..", no '\' and ':', of bounded length. The error says what is wrong, without the name.
-Result<void> checkEntryName(std::string_view name);
+/// them empty, "." or "..", no '\' and ':', of bounded length; with `unicode` also characters beyond ASCII, in UTF-8.
+/// The error says what is wrong, without the name.
+Result<void> checkEntryName(std::string_view name, bool unicode = false);
 
 /// The name as a message shows it: quoted, control characters and bytes beyond ASCII as \xNN, shortened.
 std::string shownName(std::string_view name);
