@@ -258,6 +258,8 @@ const std::vector<Wrong>& wrongs()
         {"SurrogateReference", item("", R"(type="shape" id="1" name="&#xD800;")"), "this reference names no character"},
         {"ReferenceTooLarge", item("", R"(type="shape" id="1" name="&#99999999999;")"),
          "this reference names no character"},
+        {"LongReference", item("", R"(type="shape" id="1" name="&#xE9)" + std::string(60, 'D') + ";\""),
+         "this reference names no character"},
         {"SecondRoot", "</scene><scene version=\"1\">", "there is a second <scene>"},
     };
     return all;
