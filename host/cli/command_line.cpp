@@ -1,7 +1,9 @@
 #include "check_commands.hpp"
 #include "commands.hpp"
 #include "package_commands.hpp"
+#include "packed_commands.hpp"
 #include "plugin_new_command.hpp"
+#include "project_check_command.hpp"
 #include "recovery_commands.hpp"
 
 #include "host/plugins/suggest.hpp"
@@ -47,7 +49,7 @@ void addPlay(CLI::App& app, Parsed& parsed)
 {
     auto& o = parsed.play;
     auto* play = app.add_subcommand("play", "Play a project's scene without a window");
-    play->add_option("project", o.project, "Project folder or .jet file")->required()->type_name("PROJECT");
+    play->add_option("project", o.project, "Project folder, .jet or .jetz file")->required()->type_name("PROJECT");
     play->add_option("--scene", o.scene, "Scene by name, or by number from 0; the first if not given")->type_name("N");
     play->add_option("--steps", o.steps, "Number of steps")
         ->type_name("N")
@@ -134,9 +136,10 @@ void addProject(CLI::App& app, Parsed& parsed)
             [&parsed, action] { parsed.run = [&parsed, action](Session& s) { return action(s, parsed.project); }; });
     };
     one("new", "Make an empty project", newProject);
-    one("check", "Open a project and tell everything that is wrong with it", checkProject);
     one("info", "What a project holds", projectInfo);
     addRecoveryCommands(*project, parsed.run);
+    addPackedCommands(*project, parsed.run);
+    addProjectCheckCommand(*project, parsed.run);
 }
 
 int run(const Parsed& parsed, Session& session)

@@ -40,7 +40,6 @@ int trustPlugins(Session& session, const std::filesystem::path& project, bool tr
 int enablePlugin(Session& session, const std::string& id, bool enable);
 
 int newProject(Session& session, const std::filesystem::path& folder);
-int checkProject(Session& session, const std::filesystem::path& project);
 int projectInfo(Session& session, const std::filesystem::path& project);
 
 /// The command line without a window. Returns the exit code, or nothing when the editor is to be started with

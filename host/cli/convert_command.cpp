@@ -2,12 +2,16 @@
 // each.
 #include "project_access.hpp"
 
+#include "host/projects/project_archive.hpp"
+
 #include <jet/effect.hpp>
 #include <jet/format.hpp>
 #include <jet/item_type.hpp>
 
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <unistd.h>
 
 namespace jet::host {
 
@@ -66,7 +70,11 @@ public:
 private:
     static bool isProject(const fs::path& path)
     {
-        return extensionOf(path) == "jet" || extensionOf(path).empty() || isFolder(path);
+        return extensionOf(path) == "jet" || extensionOf(path).empty() || isFolder(path) || isPacked(path);
+    }
+    static bool isPacked(const fs::path& path)
+    {
+        return extensionOf(path) == kPackedProjectExtension && !isFolder(path);
     }
     static bool isFolder(const fs::path& path)
     {
@@ -130,7 +138,7 @@ private:
             }
         }
         if (project->scenes().empty()) return kFailed;
-        project->saveAs(options_.output).orThrow();
+        saveProject(*project, options_.output);
         std::printf("%zu converted, %zu failed\n", options_.inputs.size() - failed, failed);
         return failed == 0 ? kOk : kFailed;
     }
@@ -147,17 +155,35 @@ private:
         std::unique_ptr<Project> project;
         if (isProject(input)) {
             session_.useProjectPlugins(input);
-            project = Project::load(input, session_.events(), session_.plugins()).orThrow();
+            project = Project::load(session_.readable(input), session_.events(), session_.plugins()).orThrow();
             for (const FormatNote& note : project->notes()) session_.warning(note.message, note.where);
         } else {
             project = emptyProject(output.stem().string());
             importInto(project->addScene("Scene 0"), input);
         }
         if (isProject(output)) {
-            project->saveAs(output).orThrow();
+            saveProject(*project, output);
             return;
         }
         exportScene(chooseScene(*project, options_.scene), output);
+    }
+
+    // A project that has files is packed as it is, with its pictures and sounds; one just made, from a folder for it.
+    static void saveProject(Project& project, const fs::path& output)
+    {
+        if (!isPacked(output)) return project.saveAs(output).orThrow();
+        std::string folder = (fs::temp_directory_path() / "jet-convert-XXXXXX").string();
+        const bool isNew = project.file().empty();
+        if (isNew && !::mkdtemp(folder.data()))
+            throw Failure(Error("no temporary folder can be made; free some space", Location{folder, 0, 0}));
+        auto saved = isNew ? project.saveAs(folder) : Result<void>();
+        if (saved) {
+            const auto packed = packProject(project);
+            saved = packed ? writeFileAtomically(output, packed->bytes) : Result<void>(packed.error());
+        }
+        std::error_code ignored;
+        if (isNew) fs::remove_all(folder, ignored);
+        saved.orThrow();
     }
 
     void importInto(Scene& scene, const fs::path& input)

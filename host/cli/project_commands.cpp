@@ -1,5 +1,4 @@
 #include "project_access.hpp"
-#include "recovery_commands.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +12,7 @@ namespace fs = std::filesystem;
 std::unique_ptr<Project> openProject(Session& session, const fs::path& path)
 {
     session.useProjectPlugins(path);
-    auto project = Project::load(path, session.events(), session.plugins());
+    auto project = Project::load(session.readable(path), session.events(), session.plugins());
     if (!project) {
         session.error(project.error());
         return nullptr;
@@ -51,12 +50,6 @@ std::string projectName(const fs::path& folder)
 // For a name that is not UTF-8, as file names may be.
 std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
 
-Json noteJson(const FormatNote& note)
-{
-    return {
-        {"message", note.message}, {"file", note.where.file}, {"line", note.where.line}, {"column", note.where.column}};
-}
-
 }  // namespace
 
 int newProject(Session& session, const fs::path& folder)
@@ -75,41 +68,12 @@ int newProject(Session& session, const fs::path& folder)
     return kOk;
 }
 
-int checkProject(Session& session, const fs::path& path)
-{
-    session.useProjectPlugins(path);
-    auto opened = Project::load(path, session.events(), session.plugins());
-    if (!opened) {
-        const Error& error = opened.error();
-        session.error(error);
-        if (session.options().json)
-            std::printf(
-                "%s\n",
-                dump({{"ok", false}, {"errors", Json::array({noteJson({error.message, error.where})})}}).c_str());
-        return kFailed;
-    }
-    const std::unique_ptr<Project> project = std::move(*opened);
-    for (const FormatNote& note : project->notes()) session.warning(note.message, note.where);
-    const std::size_t unsaved = tellUnsavedChanges(session, project->file());
-    std::size_t items = 0;
-    for (const Scene* scene : project->scenes()) items += scene->items().itemCount();
-    if (session.options().json) {
-        Json notes = Json::array();
-        for (const FormatNote& note : project->notes()) notes.push_back(noteJson(note));
-        std::printf("%s\n", dump({{"ok", true}, {"notes", notes}, {"unsavedChanges", unsaved}}).c_str());
-    } else {
-        std::printf("%s: fine: %zu scenes, %zu items, %zu warnings\n", project->file().c_str(),
-                    project->scenes().size(), items, project->notes().size());
-    }
-    return kOk;
-}
-
 int projectInfo(Session& session, const fs::path& path)
 {
     const auto project = openProject(session, path);
     if (!project) return kFailed;
     Json json{{"name", project->name()},
-              {"file", project->file().string()},
+              {"file", session.named(project->file().string())},
               {"hash", hashText(project->hash())},
               {"scenes", Json::array()},
               {"plugins", Json::array()}};
@@ -132,7 +96,7 @@ int projectInfo(Session& session, const fs::path& path)
         std::printf("%s\n", dump(json).c_str());
         return kOk;
     }
-    std::printf("%s (%s)\n  hash %s\n", project->name().c_str(), project->file().c_str(),
+    std::printf("%s (%s)\n  hash %s\n", project->name().c_str(), session.named(project->file().string()).c_str(),
                 hashText(project->hash()).c_str());
     for (const Json& scene : json["scenes"]) {
         std::printf("  scene '%s': %d items\n", scene["name"].get<std::string>().c_str(), scene["items"].get<int>());

@@ -1,6 +1,7 @@
 #include "session.hpp"
 
 #include "host/plugins/project_trust.hpp"
+#include "host/projects/project_archive.hpp"
 
 #include <jet/format.hpp>
 
@@ -31,6 +32,11 @@ std::set<std::string> readSet(const std::string& name)
 }
 
 }  // namespace
+
+struct Session::Unpacked {
+    fs::path packed;
+    UnpackedProject copy;
+};
 
 Session::Session(GlobalOptions options) : options_(std::move(options)) {}
 
@@ -85,10 +91,23 @@ PluginManager& Session::plugins()
     return *plugins_;
 }
 
+fs::path Session::readable(const fs::path& project)
+{
+    if (!isPackedProject(project)) return project;
+    for (const auto& known : unpacked_)
+        if (known->packed == project) return known->copy.folder();
+    unpacked_.push_back(std::make_unique<Unpacked>(Unpacked{project, UnpackedProject::make(project).orThrow()}));
+    return unpacked_.back()->copy.folder();
+}
+
 void Session::useProjectPlugins(const fs::path& project)
 {
-    auto found = findProjectPlugins(project);
+    auto found = findProjectPlugins(readable(project));
     if (!found) return;
+    // Trust is in a folder that stays: the copy is another one each time.
+    if (isPackedProject(project))
+        return warning("the plugins of a packed project are left out; unpack it with 'jet project unpack' to use them",
+                       Location{project.string(), 0, 0});
     if (options_.safeMode) return warning("the plugins of the project are left out in safe mode");
     if (options_.trust && !found->isTrusted()) {
         trustProject(*found).orThrow();
@@ -98,9 +117,19 @@ void Session::useProjectPlugins(const fs::path& project)
     plugins().addFolder(found->folder, PluginOrigin::Project);
 }
 
+std::string Session::named(std::string text) const
+{
+    for (const auto& known : unpacked_) {
+        const std::string copy = known->copy.folder().string(), packed = known->packed.string();
+        for (auto at = text.find(copy); at != std::string::npos; at = text.find(copy, at + packed.size()))
+            text.replace(at, copy.size(), packed);
+    }
+    return text;
+}
+
 void Session::tell(const std::string& text)
 {
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", named(text).c_str());
     const std::lock_guard lock(mutex_);
     std::erase_if(problems_,
                   [&](const PluginProblem& problem) { return text.find(problem.reason) != std::string::npos; });

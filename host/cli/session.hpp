@@ -45,6 +45,13 @@ public:
     /// Brings in the plugins beside the project file; warns where they are left out because nobody trusted them yet.
     void useProjectPlugins(const std::filesystem::path& project);
 
+    /// The project to read: the path itself, or, of a packed project (*.jetz), a copy that goes with the session.
+    /// Messages name the packed file. Throws Failure when it cannot be unpacked.
+    std::filesystem::path readable(const std::filesystem::path& project);
+
+    /// A text or path with the copies of packed projects called by the names of these.
+    std::string named(std::string text) const;
+
     void error(const Error& error);
     void warning(const std::string& message, const Location& where = {});
     /// Plugins in which an earlier run ended. printCrashes() says so once, on stderr, for commands without a window.
@@ -65,6 +72,8 @@ private:
     std::vector<PluginProblem> problems_;  // not yet told
     std::unique_ptr<PluginManager> plugins_;
     std::unique_ptr<Watchdog> watchdog_;
+    struct Unpacked;
+    std::vector<std::unique_ptr<Unpacked>> unpacked_;
 };
 
 /// "0x…" hashes are printed as 16 hexadecimal digits.

@@ -20,8 +20,9 @@ namespace jet::host {
 namespace {
 
 constexpr MenuSpec kMenus[] = {
-    {QT_TRANSLATE_NOOP("Actions", "&File"), "file.new file.open @recent | file.save file.save-as file.recover | "
-                                            "file.import file.export | view.close file.quit"},
+    {QT_TRANSLATE_NOOP("Actions", "&File"),
+     "file.new file.open @recent | file.save file.save-as file.collect file.export-single file.recover | "
+     "file.import file.export | view.close file.quit"},
     {QT_TRANSLATE_NOOP("Actions", "&Edit"),
      "edit.undo edit.redo | edit.cut edit.copy edit.paste edit.paste-in-place edit.duplicate "
      "edit.delete | edit.select-all edit.group edit.ungroup | edit.settings"},

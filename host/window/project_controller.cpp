@@ -1,5 +1,7 @@
 #include "window/project_controller.hpp"
 
+#include "host/projects/project_archive.hpp"
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
@@ -21,7 +23,8 @@ std::filesystem::path pathOf(const QString& text) { return text.toStdString(); }
 ProjectController::ProjectController(Editor& editor, Documents& documents, QWidget* window)
     : QObject(window), editor_(editor), documents_(documents), window_(window), question_([this] { return ask(); }),
       recoveryQuestion_([this](const auto& journals) { return askRecovery(journals); }),
-      conflictQuestion_([this](const QStringList& files) { return askConflict(files); })
+      conflictQuestion_([this](const QStringList& files) { return askConflict(files); }),
+      unpackQuestion_([this](const std::filesystem::path& packed) { return askUnpack(packed); })
 {
 }
 
@@ -35,6 +38,9 @@ std::vector<ActionSpec> ProjectController::actions()
         {"file.save", QT_TRANSLATE_NOOP("Actions", "&Save project"), "save", "Ctrl+S", [this] { save(); }},
         {"file.save-as", QT_TRANSLATE_NOOP("Actions", "Save project &as…"), "", "Ctrl+Shift+S",
          [this] { askAndSaveAs(); }},
+        {"file.collect", QT_TRANSLATE_NOOP("Actions", "Collect &into project"), "", "", [this] { collect(); }},
+        {"file.export-single", QT_TRANSLATE_NOOP("Actions", "Export as single &file…"), "", "",
+         [this] { askAndExportPacked(); }},
         {"file.recover", QT_TRANSLATE_NOOP("Actions", "&Recover unsaved changes…"), "", "",
          [this] { askAndRecover(); }},
     };
@@ -91,6 +97,7 @@ void ProjectController::create()
 
 bool ProjectController::open(const std::filesystem::path& path)
 {
+    if (isPackedProject(path)) return openPacked(path);
     const auto file = findProjectFile(path);
     return (file && offerRecovery(*file)) || load(path);
 }
@@ -302,8 +309,8 @@ void ProjectController::askAndOpen()
     if (!mayClose()) return;
     const QString start = recent_.isEmpty() ? QString() : QFileInfo(recent_.front()).path();
     const QString file = QFileDialog::getOpenFileName(window_, tr("Open project"), start,
-                                                      tr("JET projects (project.jet *.jet);;All files (*)"), nullptr,
-                                                      QFileDialog::DontUseNativeDialog);
+                                                      tr("JET projects (project.jet *.jet *.jetz);;All files (*)"),
+                                                      nullptr, QFileDialog::DontUseNativeDialog);
     if (!file.isEmpty()) open(pathOf(file));
 }
 

@@ -34,10 +34,15 @@ public:
     bool hasProject() const { return project_ != nullptr; }
     /// A new, untitled project.
     void create();
-    /// False, and the present project stays, when it cannot be read; the message bar says why.
+    /// False, and the present project stays, when it cannot be read; the message bar says why. A packed project is
+    /// unpacked where the user wants it first.
     bool open(const std::filesystem::path& path);
     bool save();
     bool saveAs(const std::filesystem::path& folder);
+    /// Packs the saved project into one file, *.jetz.
+    bool exportPacked(const std::filesystem::path& file);
+    /// Copies what the project uses from elsewhere into its folder; one undo step a scene.
+    bool collect();
     /// Offers the changes that a crash left behind: those of `only`, or of all projects. False where there are none.
     bool offerRecovery(const std::filesystem::path& only = {});
     /// Opens the project of a journal with the changes in it, in place of the present one.
@@ -62,6 +67,11 @@ public:
     {
         recoveryQuestion_ = std::move(question);
     }
+    /// Where to unpack a packed project; an empty path: nowhere.
+    void setUnpackQuestion(std::function<std::filesystem::path(const std::filesystem::path&)> question)
+    {
+        unpackQuestion_ = std::move(question);
+    }
     void setConflictQuestion(std::function<Conflict(const QStringList&)> question)
     {
         conflictQuestion_ = std::move(question);
@@ -77,6 +87,9 @@ private:
     void askAndOpen(const QString& path);
     bool askAndSaveAs();
     void askAndRecover();
+    void askAndExportPacked();
+    bool openPacked(const std::filesystem::path& packed);
+    std::filesystem::path askUnpack(const std::filesystem::path& packed);
     bool load(const std::filesystem::path& path);
     bool saveOverChanged(const std::vector<std::filesystem::path>& changed);
     void startJournal();
@@ -102,6 +115,7 @@ private:
     std::function<bool()> tellMissing_;
     std::function<RecoveryChoice(const std::vector<JournalInfo>&)> recoveryQuestion_;
     std::function<Conflict(const QStringList&)> conflictQuestion_;
+    std::function<std::filesystem::path(const std::filesystem::path&)> unpackQuestion_;
 };
 
 }  // namespace jet::host
