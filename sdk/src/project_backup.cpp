@@ -134,7 +134,10 @@ Result<void> backUp(const fs::path& folder, const std::string& project, const st
     ignoreFolder(folder / ".jet-backups");
     auto before = backupsIn(all);
     std::string name = timeName();
-    if (!before.empty() && name <= before.front().name) name = before.front().name + "a";  // the clock went back
+    if (!before.empty()) {  // the clock may have gone back
+        const std::string newest = before.front().name.substr(0, before.front().name.find(kVersionMark));
+        if (name <= newest) name = newest + "a";
+    }
     if (formatVersion) name += kVersionMark + std::to_string(*formatVersion);
     const fs::path unfinished = all / ("." + name + ".part");
     auto filled = fillBackup(folder, unfinished, before.empty() ? fs::path() : before.front().folder, files);

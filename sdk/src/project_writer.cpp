@@ -38,8 +38,11 @@ private:
         const std::string structure = project_.structure();
         std::vector<FileToWrite> files = filesToWrite(everything, structure);
         if (const auto free = checkForeign(files); !free) return free;
-        if (const auto kept = keepOriginal(); !kept) return kept;
-        if (!files.empty()) backUpOld(files);
+        if (!files_.migrated.empty()) {
+            if (const auto kept = keepOriginal(); !kept) return kept;
+        } else if (!files.empty()) {
+            backUpOld(files);
+        }
         if (files_.watcher) files_.watcher->aboutToSave(files, everything);
         for (FileToWrite& file : files) {
             const fs::path path = folder_ / file.path;
@@ -121,7 +124,6 @@ private:
     /// A project of an older format, before it is written in this one for the first time.
     Result<void> keepOriginal()
     {
-        if (files_.migrated.empty()) return {};
         std::set<std::string> paths;
         for (const auto& [path, state] : files_.known) paths.insert(path);
         auto kept = backUp(folder_, project_.file_.filename().string(), paths, files_.backups, files_.oldestVersion);
