@@ -104,8 +104,13 @@ void Actuators::addTo(StiffnessBounds& bounds, const State& state) const
             for (int i = 0; i < anchor->count; ++i) bounds.add(anchor->node[i], spring.ks * spring.restCompliance);
 }
 
-void Actuators::prepare(const StiffnessBounds& bounds, double h)
+void Actuators::prepare(const StiffnessBounds& bounds, double h, bool plain)
 {
+    if (plain) {
+        for (Spring& spring : springs_) spring.stiffness = spring.ks, spring.damping = spring.kd;
+        for (AngularSpring& spring : angularSprings_) spring.stiffness = spring.ks, spring.damping = spring.kd;
+        return;
+    }
     const auto soften = [h](auto& spring, double share) {
         spring.stiffness = spring.ks * share;
         spring.damping = spring.kd + h * (spring.ks - spring.stiffness);
@@ -129,6 +134,27 @@ void Actuators::applySprings(State& state, double h, bool backwards)
         apply(state, springs_[backwards ? springs_.size() - 1 - i : i], h);
     for (std::size_t i = 0; i < angularSprings_.size(); ++i)
         apply(state, angularSprings_[backwards ? angularSprings_.size() - 1 - i : i], h);
+}
+
+void Actuators::addSpringForces(State& state)
+{
+    for (Spring& spring : springs_) {
+        if (!spring.alive) continue;
+        const Vec2 apart = spring.a.position(state) - spring.b.position(state);
+        const double length = apart.norm();
+        if (spring.tearLength > 0 && length > spring.tearLength) spring.alive = 0;
+        if (!spring.alive || !(length > 1e-12)) continue;
+        AnchorJacobian jacobian;
+        jacobian.add(state, spring.a, apart / length);
+        jacobian.add(state, spring.b, -apart / length);
+        jacobian.addForce(state, -spring.ks * (length - spring.restLength) - spring.kd * jacobian.rate(state));
+    }
+    for (AngularSpring& spring : angularSprings_) {
+        AnchorJacobian jacobian;
+        if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) continue;
+        spring.angle += wrapped(angleNow(state, spring.a, spring.centre, spring.b) - spring.angle);
+        jacobian.addForce(state, -spring.ks * (spring.angle - spring.restAngle) - spring.kd * jacobian.rate(state));
+    }
 }
 
 void Actuators::apply(State& state, Spring& spring, double h)

@@ -20,11 +20,14 @@ public:
     void setForce(ActuatorHandle handle, const Vec2& value) { forces_[handle].force = value; }
 
     void addTo(StiffnessBounds&, const State&) const;
-    void prepare(const StiffnessBounds&, double h);
+    /// `plain`: stiffness and damping as they are.
+    void prepare(const StiffnessBounds&, double h, bool plain = false);
     /// Adds torques and forces to the nodes; they hold for one substep, as levers turn with their bodies.
     void addForces(State&) const;
     /// Changes velocities by the impulses of springs and angular springs over h.
     void applySprings(State&, double h, bool backwards);
+    /// The same as forces of the state as it is, for Method::SemiImplicitEuler.
+    void addSpringForces(State&);
 
     template <class Archive>
     void archive(Archive& with)

@@ -162,6 +162,14 @@ double AnchorJacobian::compliance(const State& state) const
     return sum;
 }
 
+void AnchorJacobian::addForce(State& state, double force) const
+{
+    for (int i = 0; i < count_; ++i) {
+        state.nodes.force[entries_[i].node] += force * entries_[i].linear;
+        state.nodes.torque[entries_[i].node] += force * entries_[i].angular;
+    }
+}
+
 void AnchorJacobian::apply(State& state, double impulse) const
 {
     for (int i = 0; i < count_; ++i) {

@@ -1,6 +1,7 @@
 #include "contact_finder.hpp"
 
 #include "border.hpp"
+#include "soft/mass_sums.hpp"
 
 #include <chrono>
 
@@ -44,8 +45,9 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     // Nothing can meet where there is only one body.
     std::size_t bodies = 0;
     for (const BodyRecord& body : state.bodies)
-        bodies += body.points.count == 0 ? 0 : body.matter.selfCollision ? 2 : 1;
+        bodies += body.points.count == 0 ? 0 : body.matter.selfCollision || body.pieceCount > 1 ? 2 : 1;
     lonely_ = bodies < 2;
+    softPairs_.clear();
     if (lonely_) {
         contacts.clear();
         return;
@@ -58,11 +60,16 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     const auto narrow = std::chrono::steady_clock::now();
     previous_.swap(contacts);
     contacts.clear();
-    for (BodyRecord& body : state.bodies) {
-        if (body.rigid || body.walls.count == 0) continue;
+    splitPairs(state, dt);
+    const auto readGrid = [&](Index handle) {
+        BodyRecord& body = state.bodies[handle];
+        if (body.rigid || body.walls.count == 0 || gridded_[handle] != 0) return;
+        gridded_[handle] = 1;
         rebuildGrid(state, body);
         updateCorners(state, body);
-    }
+    };
+    gridded_.assign(state.bodies.size(), 0);
+    for (const BodyPair& pair : pairs_) readGrid(pair.a), readGrid(pair.b);
     collidePairs(state, settings, dt, previous_, contacts);
     carryOver(state, previous_, contacts);
     stats.narrowPhaseMs += millisecondsSince(narrow);
@@ -91,6 +98,34 @@ bool ContactFinder::expectHits(const State& state, double dt)
     return grew;
 }
 
+bool ContactFinder::isSlow(const State& state, const BodyPair& pair, double dt) const
+{
+    const BodyRecord &a = state.bodies[pair.a], &b = state.bodies[pair.b];
+    const Motion &motionA = motions_[pair.a], &motionB = motions_[pair.b];
+    return motionA.surprise == 0 && motionB.surprise == 0 &&
+           (motionA.velocity - motionB.velocity).norm() * dt < kHitLengths * std::min(a.length, b.length);
+}
+
+/// Leaves in pairs_ what does not go by soft/contacts.hpp; adds bodies that collide with themselves.
+void ContactFinder::splitPairs(const State& state, double dt)
+{
+    const auto wide = [&](const BodyPair& pair) {
+        return state.bodies[pair.a].wide && state.bodies[pair.b].wide && isSlow(state, pair, dt);
+    };
+    for (Index body = 0; body < state.bodies.size(); ++body)
+        if ((state.bodies[body].matter.selfCollision || state.bodies[body].pieceCount > 1) && !state.bodies[body].fixed)
+            pairs_.push_back({body, body});
+    const auto joined = [&](const BodyPair& pair) {
+        return std::binary_search(excluded_.begin(), excluded_.end(), std::pair(pair.a, pair.b));
+    };
+    if (!excluded_.empty()) pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), joined), pairs_.end());
+    for (const BodyPair& pair : pairs_)
+        if (wide(pair)) softPairs_.push_back(pair);
+    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), wide), pairs_.end());
+    std::sort(softPairs_.begin(), softPairs_.end(),
+              [](const BodyPair& p, const BodyPair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); });
+}
+
 void ContactFinder::collidePairs(const State& state, const WorldSettings& settings, double dt,
                                  std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts)
 {
@@ -100,13 +135,12 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
         if (!settings.materials[static_cast<std::size_t>(a.material) * settings.materialCount + b.material].collides)
             continue;
         const ContactPoint pattern = patternOf(a, b, settings);
+        if (pair.a == pair.b) {
+            if (a.matter.selfCollision) narrow.collideSelf(pair.a, pattern, contacts);
+            continue;
+        }
         narrow.collide(pair.a, pair.b, pattern, contacts);
         narrow.collide(pair.b, pair.a, pattern, contacts);
-    }
-    for (Index body = 0; body < state.bodies.size(); ++body) {
-        const BodyRecord& record = state.bodies[body];
-        if (record.matter.selfCollision && !record.fixed)
-            narrow.collideSelf(body, patternOf(record, record, settings), contacts);
     }
     // A point inside may have been found twice at one wall: once at its front, once to be pushed out; the latter
     // counts.
@@ -173,26 +207,19 @@ void ContactFinder::predictBody(const State& state, const BodyRecord& body, cons
     for (Index p = body.points.first; p < body.points.end(); ++p) motion.reach.extend(state.points.position[p]);
     if (body.fixed || body.nodes.count == 0) return;
 
-    double inertia = 0, momentum = 0, spread = 0;
-    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        motion.centre += nodes.mass[n] * nodes.position[n];
-        motion.velocity += nodes.mass[n] * nodes.velocity[n];
-    }
-    motion.centre /= body.mass;
-    motion.velocity /= body.mass;
+    double spread = 0;
     if (body.rigid) {
+        motion.centre = nodes.position[body.nodes.first];
+        motion.velocity = nodes.velocity[body.nodes.first];
         motion.omega = nodes.omega[body.nodes.first];
     } else {
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-            const Vec2 arm = nodes.position[n] - motion.centre;
-            inertia += nodes.mass[n] * arm.squaredNorm();
-            momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - motion.velocity);
-        }
-        motion.omega = inertia > 0 ? momentum / inertia : 0;
+        const soft::MassSums sums = soft::massSums(nodes, body.nodes);
+        motion.centre = sums.centre, motion.velocity = sums.velocity, motion.omega = sums.omega();
         for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
             const Vec2 rigid = motion.velocity + motion.omega * perpendicular(nodes.position[n] - motion.centre);
-            spread = std::max(spread, (nodes.velocity[n] - rigid).norm());
+            spread = std::max(spread, (nodes.velocity[n] - rigid).squaredNorm());
         }
+        spread = std::sqrt(spread);
     }
     const double radius = 0.5 * motion.reach.size().norm();
     const double turning = std::min(std::abs(motion.omega) * dt, 2.0) * radius;

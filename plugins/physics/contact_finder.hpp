@@ -15,7 +15,17 @@ public:
     /// Has a body moved, since find(), further from its prediction than its contacts allow for? `elapsed`: seconds.
     bool strayed(const State&, double elapsed) const;
 
+    /// Pairs that joints keep from colliding; ascending, the smaller handle first.
+    void exclude(std::vector<std::pair<Index, Index>> pairs) { excluded_ = std::move(pairs); }
+
+    // Of the last find():
+    const std::vector<Motion>& motions() const { return motions_; }
+    /// Pairs that soft/contacts.hpp takes; ascending.
+    const std::vector<BodyPair>& softPairs() const { return softPairs_; }
+
 private:
+    bool isSlow(const State&, const BodyPair&, double dt) const;
+    void splitPairs(const State&, double dt);
     bool expectHits(const State&, double dt);
     void predict(const State&, const WorldSettings&, double dt);
     void predictBody(const State&, const BodyRecord&, const WorldSettings&, double dt, Motion&, double& budget) const;
@@ -28,7 +38,9 @@ private:
     std::vector<double> budgets_;            // [bodies] units a node may stray
     std::vector<Vec2> position_, velocity_;  // [nodes] at the last find()
     std::vector<double> angle_, omega_;
-    std::vector<BodyPair> pairs_;
+    std::vector<std::pair<Index, Index>> excluded_;
+    std::vector<BodyPair> pairs_, softPairs_;
+    std::vector<std::uint8_t> gridded_;  // [bodies] soft bodies whose grid is as of this find()
     std::vector<ContactPoint> previous_;
 };
 

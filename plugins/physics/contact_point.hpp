@@ -30,6 +30,7 @@ struct ContactPoint {
 
     // Refreshed each substep.
     bool active = false;
+    bool round = false;                 // touched at the wall's first end, around which its thickness goes
     Vec2 normal;                        // unit, out of B
     double separation = 0;              // units along the normal; negative when overlapping
     double along = 0;                   // 0..1 on the wall

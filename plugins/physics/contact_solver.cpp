@@ -90,6 +90,10 @@ std::uint8_t ContactSolver::refresh(ContactPoint& c)
     c.normal = perpendicular(edge) * (state_.walls.outward[c.wall] / length);
     c.separation = (at - first).dot(c.normal) - c.thickness;
     c.along = (at - first).dot(edge) / squared;
+    // A thick border is round where two of its walls meet: there the corner itself is what is touched.
+    const double away = (at - first).norm();
+    c.round = c.thickness > 0 && c.along < 0 && c.separation > -c.thickness && away > 1e-12 && !c.inside;
+    if (c.round) c.normal = (at - first) / away, c.separation = away - c.thickness;
 
     c.armA = at - nodes.position[c.nodeA];
     c.armB = Vec2(0, 0);
@@ -130,7 +134,9 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
         if (distance > 0) along += slide * h_ * std::min(1.0, c.separation / distance);
     }
     const double fromFirst = along * wallLength, fromSecond = (1 - along) * wallLength;
-    if (fromFirst < -overhang(c.firstInset) || fromSecond < -overhang(c.secondInset)) return false;
+    const bool thick = c.thickness > 0;
+    const double firstReach = thick ? 0 : overhang(c.firstInset), secondReach = thick ? 0 : overhang(c.secondInset);
+    if ((fromFirst < -firstReach && !c.round) || fromSecond < -secondReach) return false;
     // A point that is behind the wall without having come to it went round its end: it is not to be pulled through.
     if (c.separation + c.thickness < -kTouchDepth * c.slop && !c.engaged) return false;
     c.engaged = true;

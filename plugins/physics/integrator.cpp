@@ -1,5 +1,7 @@
 #include "integrator.hpp"
 
+#include "soft/mass_sums.hpp"
+
 namespace jet::physics {
 
 namespace {
@@ -19,23 +21,10 @@ void limit(Vec2& velocity, double& omega)
 /// Slows the turning of a soft body about its centre of mass, leaving its oscillations alone.
 void dampTurning(Nodes& nodes, const BodyRecord& body, double kept)
 {
-    Vec2 centre(0, 0), velocity(0, 0);
-    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        centre += nodes.mass[n] * nodes.position[n];
-        velocity += nodes.mass[n] * nodes.velocity[n];
-    }
-    centre /= body.mass;
-    velocity /= body.mass;
-    double inertia = 0, momentum = 0;
-    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        const Vec2 arm = nodes.position[n] - centre;
-        inertia += nodes.mass[n] * arm.squaredNorm();
-        momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - velocity);
-    }
-    if (!(inertia > 0)) return;
-    const double change = (kept - 1) * momentum / inertia;
+    const soft::MassSums sums = soft::massSums(nodes, body.nodes);
+    const double change = (kept - 1) * sums.omega();
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        if (nodes.invMass[n] > 0) nodes.velocity[n] += change * perpendicular(nodes.position[n] - centre);
+        if (nodes.invMass[n] > 0) nodes.velocity[n] += change * perpendicular(nodes.position[n] - sums.centre);
 }
 
 }  // namespace

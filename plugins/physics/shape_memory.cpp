@@ -1,5 +1,7 @@
 #include "shape_memory.hpp"
 
+#include "soft/mass_sums.hpp"
+
 #include <numeric>
 
 namespace jet::physics {
@@ -76,8 +78,11 @@ void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle han
     for (const SpringDef& spring : def.springs)
         if (acts(spring)) springs[groups.of(spring.a)].add(spring, def);
 
+    std::vector<Index> particles(def.particles.size());
+    std::iota(particles.begin(), particles.end(), Index{0});
+    std::sort(particles.begin(), particles.end(), [&](Index p, Index q) { return nodeOf[p] < nodeOf[q]; });
     std::vector<Lattice> lattices(def.particles.size());
-    for (Index i = 0; i < def.particles.size(); ++i) {
+    for (const Index i : particles) {
         Lattice& lattice = lattices[groups.of(i)];
         lattice.nodes.push_back(nodeOf[i]);
         lattice.rest.push_back(def.particles[i]);
@@ -130,10 +135,9 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
 {
     Nodes& nodes = state.nodes;
     for (Lattice& lattice : lattices_) {
-        if (lattice.relaxed) continue;
+        if (lattice.relaxed || springs.anyTorn(lattice.body)) continue;
         const Motion motion = match(nodes, lattice);
         if (!pull(nodes, lattice, motion, h)) continue;
-        if (springs.anyTorn(lattice.body)) continue;
         removeNet(nodes, lattice, motion);
         for (std::size_t i = 0; i < lattice.nodes.size(); ++i)
             nodes.velocity[lattice.nodes[i]] += elastic_[i] + damping_[i];
@@ -142,23 +146,10 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
 
 ShapeMemory::Motion ShapeMemory::match(const Nodes& nodes, Lattice& lattice) const
 {
-    Motion motion{Vec2(0, 0), Vec2(0, 0)};
-    for (const Index n : lattice.nodes) {
-        motion.centre += nodes.mass[n] * nodes.position[n];
-        motion.velocity += nodes.mass[n] * nodes.velocity[n];
-    }
-    motion.centre /= lattice.mass;
-    motion.velocity /= lattice.mass;
-    double along = 0, across = 0, momentum = 0;
-    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
-        const Index n = lattice.nodes[i];
-        const Vec2 arm = nodes.position[n] - motion.centre;
-        along += nodes.mass[n] * lattice.rest[i].dot(arm);
-        across += nodes.mass[n] * cross(lattice.rest[i], arm);
-        momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - motion.velocity);
-        motion.inertia += nodes.mass[n] * arm.squaredNorm();
-    }
-    if (motion.inertia > 0) motion.omega = momentum / motion.inertia;
+    const soft::MassSums sums = soft::massSums(
+        nodes, lattice.nodes.size(), [&](std::size_t i) { return lattice.nodes[i]; }, lattice.rest.data());
+    Motion motion{sums.centre, sums.velocity, sums.omega(), sums.inertia};
+    const double along = sums.along, across = sums.across;
     motion.fit = std::sqrt(along * along + across * across);
     motion.certain = motion.fit > kLeastFit * lattice.inertia;
     if (motion.certain) lattice.rotation = Vec2(along, across) / motion.fit;
@@ -170,16 +161,19 @@ bool ShapeMemory::pull(const Nodes& nodes, const Lattice& lattice, const Motion&
 {
     const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));
     const double damped = std::min(1.0, 2 * kDampingRatio * std::sqrt(rate) * h);
-    elastic_.assign(lattice.nodes.size(), Vec2(0, 0));
-    damping_.assign(lattice.nodes.size(), Vec2(0, 0));
     bool any = false;
+    const double tolerated = lattice.tolerance * lattice.tolerance;
     for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
         const Index n = lattice.nodes[i];
         const Vec2 arm = nodes.position[n] - motion.centre;
         const Vec2 away = rotated(lattice.rotation, lattice.rest[i]) - arm;
         const double squared = away.squaredNorm();
-        if (!(squared > lattice.tolerance * lattice.tolerance)) continue;
-        any = true;
+        if (!(squared > tolerated)) continue;
+        if (!any) {
+            any = true;
+            elastic_.assign(lattice.nodes.size(), Vec2(0, 0));
+            damping_.assign(lattice.nodes.size(), Vec2(0, 0));
+        }
         elastic_[i] = h * rate * (1 - lattice.tolerance / std::sqrt(squared)) * away;
         damping_[i] = -damped * (nodes.velocity[n] - motion.velocity - motion.omega * perpendicular(arm));
     }

@@ -40,8 +40,8 @@ private:
     /// Particles of one body that springs join.
     struct Lattice {
         BodyHandle body = kNoHandle;
-        std::vector<Index> nodes;
-        std::vector<Vec2> rest;  // q, scene units
+        std::vector<Index> nodes;  // ascending
+        std::vector<Vec2> rest;    // q, scene units
         double mass = 0;
         double inertia = 0;          // sum m |q|²
         double tolerance = 0;        // scene units

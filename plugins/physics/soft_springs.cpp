@@ -123,14 +123,24 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state) const
     }
 }
 
-void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h)
+void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h, bool plain)
 {
+    if (plain) return prepareAsTheyAre();
     for (Mesh& mesh : meshes_) prepareMesh(state, bounds, mesh, h);
     for (Angular& spring : angular_) {
         const double share =
             std::min({bounds.share(spring.a, h), bounds.share(spring.centre, h), bounds.share(spring.b, h)});
         spring.stiffness = spring.ks * share;
         spring.damping = spring.kd + h * (spring.ks - spring.stiffness);
+    }
+}
+
+void SoftSprings::prepareAsTheyAre()
+{
+    for (Mesh& mesh : meshes_) {
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
+            stiffness_[i] = stiffnessOf(mesh, i), damping_[i] = dampingOf(mesh, i);
+        fillLanes(mesh);
     }
 }
 
@@ -240,6 +250,7 @@ void SoftSprings::tear(Mesh& mesh, Index spring)
 {
     alive_[spring] = 0;
     ++torn_[&mesh - meshes_.data()];
+    anyTorn_ = true;
     if (mesh.coefficients.empty()) return;
     const std::uint32_t seat = mesh.blocks.seat[spring - mesh.springs.first];
     float* at = mesh.coefficients.data() + std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes;
@@ -314,11 +325,13 @@ void SoftSprings::flow(const State& state, double dt)
 
 void SoftSprings::restored()
 {
+    anyTorn_ = false;
     for (std::size_t body = 0; body < meshes_.size(); ++body) {
         Mesh& mesh = meshes_[body];
         torn_[body] = 0;
         if (mesh.uniform && mesh.tearRatio > 0) watchTears(mesh);
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) torn_[body] += !alive_[i] && a_[i] != b_[i];
+        anyTorn_ |= torn_[body] > 0;
         fillLanes(mesh);
     }
 }
@@ -327,6 +340,25 @@ void SoftSprings::applyAngular(State& state, double h, bool backwards)
 {
     for (std::size_t i = 0; i < angular_.size(); ++i)
         applyAngularSpring(state, angular_[backwards ? angular_.size() - 1 - i : i], h);
+}
+
+void SoftSprings::addAngularForces(State& state)
+{
+    Nodes& nodes = state.nodes;
+    for (Angular& spring : angular_) {
+        const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];
+        const Vec2 armB = nodes.position[spring.b] - nodes.position[spring.centre];
+        const AngleGradient gradient(armA, armB);
+        if (!gradient.valid) continue;
+        spring.angle += wrapped(angleBetween(armA, armB) - spring.angle);
+        const double rate = nodes.velocity[spring.a].dot(gradient.a) +
+                            nodes.velocity[spring.centre].dot(gradient.centre()) +
+                            nodes.velocity[spring.b].dot(gradient.b);
+        const double torque = -spring.ks * (spring.angle - spring.restAngle) - spring.kd * rate;
+        nodes.force[spring.a] += torque * gradient.a;
+        nodes.force[spring.centre] += torque * gradient.centre();
+        nodes.force[spring.b] += torque * gradient.b;
+    }
 }
 
 void SoftSprings::applyAngularSpring(State& state, Angular& spring, double h)

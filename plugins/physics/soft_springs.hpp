@@ -29,7 +29,8 @@ public:
 
     void addTo(StiffnessBounds&, const State&) const;
     /// Fixes what depends on the length of a substep.
-    void prepare(const State&, const StiffnessBounds&, double h);
+    /// `plain`: stiffness and damping as they are, whatever comes of it.
+    void prepare(const State&, const StiffnessBounds&, double h, bool plain = false);
 
     /// Replaces the stiffness, damping and tear ratio of all springs of the body, until it is restored to before.
     void set(Index body, double ks, double kd, double tearRatio);
@@ -47,9 +48,17 @@ public:
     /// is favoured.
     void applyAngular(State&, double h, bool backwards);
 
+    /// The same as forces of the state as it is, for Method::SemiImplicitEuler.
+    void addAngularForces(State&);
+
     bool alive(Index spring) const { return alive_[spring] != 0; }
     /// Springs from a particle to itself never were whole, and never tear.
-    bool anyTorn(Index body) const { return torn_[body] > 0; }
+    bool anyTorn(Index body) const { return tornCount(body) > 0; }
+    Index tornCount(Index body) const { return body < torn_.size() ? torn_[body] : 0; }
+    bool anyTorn() const { return anyTorn_; }
+    // Nodes a spring joins.
+    Index endA(Index spring) const { return a_[spring]; }
+    Index endB(Index spring) const { return b_[spring]; }
 
     template <class Archive>
     void archive(Archive& with)
@@ -100,6 +109,7 @@ private:
         return (mesh.uniform ? mesh.tearRatio : tear_[i]) * (drawn_.empty() ? rest_[i] : drawn_[i]);
     }
     void watchTears(Mesh&);
+    void prepareAsTheyAre();
     void prepareMesh(const State&, const StiffnessBounds&, Mesh&, double h);
     void measureBias(const State&, Mesh&);
     void fillLanes(Mesh&);
@@ -116,7 +126,8 @@ private:
     std::vector<std::uint8_t> alive_;
     std::vector<double> stiffness_, damping_;  // for the prepared h
     std::vector<Mesh> meshes_;                 // [bodies]; rigid ones have no springs
-    std::vector<Index> torn_;                  // [bodies] number of torn springs
+    bool anyTorn_ = false;
+    std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;
     // Scratch of the body at work.
     std::vector<float> relative_;

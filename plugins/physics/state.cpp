@@ -1,5 +1,7 @@
 #include "state.hpp"
 
+#include "soft/mass_sums.hpp"
+
 namespace jet::physics {
 
 void Nodes::add(Index ofBody, const Vec2& at, double nodeMass, double inverseMass, double inverseInertia)
@@ -46,28 +48,12 @@ void readSoft(State& state, Index handle)
 {
     const BodyRecord& body = state.bodies[handle];
     if (body.nodes.count == 0) return;
-    const Nodes& nodes = state.nodes;
-    Vec2 centre(0, 0), velocity(0, 0);
-    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        centre += nodes.mass[n] * nodes.position[n];
-        velocity += nodes.mass[n] * nodes.velocity[n];
-    }
-    centre /= body.mass;
-    velocity /= body.mass;
-    double along = 0, across = 0, momentum = 0, inertia = 0;
-    for (Index i = 0; i < body.nodes.count; ++i) {
-        const Index n = body.nodes.first + i;
-        const Vec2 arm = nodes.position[n] - centre;
-        along += nodes.mass[n] * body.restArms[i].dot(arm);
-        across += nodes.mass[n] * cross(body.restArms[i], arm);
-        momentum += nodes.mass[n] * cross(arm, nodes.velocity[n] - velocity);
-        inertia += nodes.mass[n] * arm.squaredNorm();
-    }
+    const soft::MassSums sums = soft::massSums(state.nodes, body.nodes, body.restArms.data());
     double& angle = state.readings.angle[handle];
-    angle += wrapped(angleOf(across, along) - angle);
-    state.readings.position[handle] = centre;
-    state.readings.velocity[handle] = velocity;
-    state.readings.omega[handle] = inertia > 0 ? momentum / inertia : 0;
+    angle += wrapped(angleOf(sums.across, sums.along) - angle);
+    state.readings.position[handle] = sums.centre;
+    state.readings.velocity[handle] = sums.velocity;
+    state.readings.omega[handle] = sums.omega();
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ struct Range {
 struct BodyRecord {
     bool rigid = false, fixed = false, sensor = false;
     bool simple = false;     // rigid, of convex parts: meets its like in rigid/, not by points and walls
+    bool wide = false;       // soft: meets its like in soft/contacts.hpp
     bool kinematic = false;  // moves with its velocity, and nothing pushes it
     std::uint32_t layer = 1;
     Index material = 0;
@@ -84,8 +85,11 @@ struct BodyRecord {
     double radius = 0;  // rigid: farthest point from the centre, scene units
     Range nodes, points, walls;
     Range springs, angularSprings;  // into SoftSprings
-    std::vector<Vec2> restArms;     // soft: particles from the centre of mass at rest
-    EdgeGrid grid;                  // rigid: in the node's frame; soft: in the scene's, as of the last detection
+    bool open = false;              // soft: torn at its border, which lets gas out
+    Index pieceCount = 1;
+    std::vector<Index> pieces;   // [particles] of a torn body; empty: whole
+    std::vector<Vec2> restArms;  // soft: particles from the centre of mass at rest
+    EdgeGrid grid;               // rigid: in the node's frame; soft: in the scene's, as of the last detection
 };
 
 /// What is read after a step, one entry a body.

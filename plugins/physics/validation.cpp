@@ -139,6 +139,8 @@ void validate(const Anchor& anchor, std::size_t bodyCount)
 {
     if (anchor.body != kNoHandle) requireBelow("an anchor's body", anchor.body, bodyCount);
     requirePlace("an anchor's point", anchor.point);
+    requireFinite("an anchor's radius", {anchor.radius});
+    if (anchor.radius < 0) fail("an anchor's radius must not be negative.");
 }
 
 }  // namespace jet::physics

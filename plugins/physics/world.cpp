@@ -8,7 +8,14 @@
 
 namespace jet::physics {
 
-World::World(const WorldSettings& settings) : settings_(settings) { validate(settings); }
+World::World(const WorldSettings& settings) : settings_(settings)
+{
+    validate(settings);
+    if (settings.method == Method::SemiImplicitEuler) settings_.substeps = 1;
+    const bool avx2 = settings.simd != Simd::Sse2 && soft::hasAvx2();
+    springs_.use(avx2 ? soft::kernelsAvx2() : soft::kernelsSse2());
+    softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
+}
 
 BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
 {
@@ -91,6 +98,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     body.restArea = region.area;
     body.matter = def.matter;
 
+    body.wide = soft::fitsContacts(state_, body);
     springs_.add(state_, def, handle, nodeOf);
     body.springs.count = static_cast<Index>(def.springs.size());
     body.angularSprings.count = static_cast<Index>(def.angularSprings.size());

@@ -7,6 +7,9 @@
 #include "force_fields.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
+#include "soft/contacts.hpp"
+#include "soft/joints.hpp"
+#include "soft/tears.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
 
@@ -49,10 +52,12 @@ public:
     void setPinned(BodyHandle body, std::uint32_t particle, bool pinned) override;
     double springTension(BodyHandle body, std::uint32_t index) const override;
     bool springAlive(BodyHandle body, std::uint32_t index) const override;
+    std::span<const std::uint32_t> pieces(BodyHandle body) const override;
+    std::vector<std::vector<std::uint32_t>> borders(BodyHandle body) const override;
 
     JointHandle addJoint(const JointDef&) override;
     JointState joint(JointHandle) const override;
-    std::size_t jointCount() const override { return rigid_.jointCount(); }
+    std::size_t jointCount() const override { return jointsAt_.size(); }
     void setMotor(JointHandle, bool driven, double speed) override;
     void setJointTarget(JointHandle, const Vec2& target) override;
     void removeJoint(JointHandle) override;
@@ -71,6 +76,16 @@ private:
     BodyHandle finishBody(const BodyCommon&);
     void setRigidMass(BodyRecord&, const RigidBodyDef&);
     BodyRecord& softBody(BodyHandle);
+    const BodyRecord& softBody(BodyHandle) const;
+    void cutTorn();
+    void refuseExplosion();
+
+    /// Where a joint is kept: with the rigid bodies, or, when it holds a soft one, with those.
+    struct JointAt {
+        bool soft = false;
+        Index index = 0;
+    };
+    JointAt jointAt(JointHandle) const;
 
     void prepareStiffness();
     void substep(double h, int index, int count);
@@ -120,6 +135,10 @@ private:
     std::vector<double> freeInverse_;  // [nodes] inverse masses without pins; empty: no pin was ever set or drawn
     ContactFinder finder_;
     ContactSet contacts_;
+    soft::Contacts softContacts_;
+    soft::Joints softJoints_;
+    std::vector<JointAt> jointsAt_;
+    soft::Tears tears_;
     RigidStage rigid_;
     bool stale_ = false;               // points and readings are older than the nodes
     bool untold_ = false;              // so are the reports
@@ -133,6 +152,7 @@ private:
 
     StiffnessBounds bounds_;
     double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added
+    bool plain_ = false;      // as the thesis has it: Method::SemiImplicitEuler
     double preparedFor_ = 0;  // substep the springs are prepared for, seconds
 };
 

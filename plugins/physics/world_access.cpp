@@ -106,7 +106,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
 {
     requireBelow("body", handle, bodyCount());
     requirePlace("a position", centre);
-    refresh();
+    reportIfAsked();  // of where things were
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 shift = centre - state_.readings.position[handle];
     rigid_.disturb(handle);
@@ -155,6 +155,9 @@ void World::archive(Self& self, Archive& with)
         with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.active), with(c.engaged), with(c.along);
         with(c.normalImpulse), with(c.tangentImpulse), with(c.stepImpulse);
     });
+    self.softContacts_.archive(with);
+    self.softJoints_.archive(with);
+    self.tears_.archive(with, self.state_);
     with.list(self.reports_, [&](Contact& c) {
         with(c.bodyA), with(c.bodyB), with(c.particle), with(c.wall), with(c.point), with(c.edgeParameter),
             with(c.normal);
@@ -183,6 +186,8 @@ void World::restore(std::span<const std::byte> bytes)
         if (!archiveIn.finished()) RestoreArchive::fail();
         for (const ContactPoint& c : contacts_.points)
             if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
+        if (!softContacts_.fits(state_)) RestoreArchive::fail();
+        softContacts_.restored();
         springs_.restored();
         fields_.restored();
         rate_ = -1;
@@ -195,6 +200,7 @@ void World::restore(std::span<const std::byte> bytes)
         throw;
     }
     rigid_.rebuild();
+    finder_.exclude(softJoints_.excluded());
     stale_ = untold_ = false;
     updatePoints(state_);
     updateReadings(state_);

@@ -93,13 +93,16 @@ StepStats World::stats() const
 
 JointHandle World::addJoint(const JointDef& def)
 {
+    bool soft = false;
     for (const Anchor* anchor : {&def.a, &def.b}) {
         validate(*anchor, bodyCount());
-        if (anchor->body != kNoHandle && !rigid_.has(anchor->body))
-            throw Failure(Error("Physics: body " + std::to_string(anchor->body) +
-                                " has no simple rigid shape; joints hold those and the background. Give it shapes, or "
-                                "use a spring between bodies."));
+        soft |= anchor->body != kNoHandle && !state_.bodies[anchor->body].rigid;
     }
+    for (const Anchor* anchor : {&def.a, &def.b})
+        if (anchor->body != kNoHandle && !soft && !rigid_.has(anchor->body))
+            throw Failure(Error("Physics: body " + std::to_string(anchor->body) +
+                                " has no simple rigid shape; joints hold those, soft bodies and the background. Give "
+                                "it shapes, or use a spring between bodies."));
     if (def.a.body == def.b.body) throw Failure(Error("Physics: a joint needs two different bodies."));
     requireFinite("a joint's limits and motor", {def.lower, def.upper, def.motorSpeed, def.maxForce, def.maxTorque,
                                                  def.hertz, def.dampingRatio, def.length, def.ratio, def.breakForce});
@@ -110,12 +113,22 @@ JointHandle World::addJoint(const JointDef& def)
     if (def.maxForce < 0 || def.maxTorque < 0 || def.hertz < 0 || def.dampingRatio < 0 || def.lower > def.upper)
         throw Failure(Error("Physics: a joint's force, torque, frequency and damping must not be negative, and its "
                             "lower limit not above its upper one."));
-    return rigid_.addJoint(state_, def);
+    jointsAt_.push_back({soft, soft ? softJoints_.add(state_, def) : rigid_.addJoint(state_, def)});
+    if (soft) finder_.exclude(softJoints_.excluded());
+    return static_cast<JointHandle>(jointsAt_.size() - 1);
+}
+
+World::JointAt World::jointAt(JointHandle handle) const
+{
+    requireBelow("joint", handle, jointsAt_.size());
+    return jointsAt_[handle];
 }
 
 JointState World::joint(JointHandle handle) const
 {
-    requireBelow("joint", handle, rigid_.jointCount());
+    const JointAt at = jointAt(handle);
+    if (at.soft) return softJoints_.state(state_, at.index);
+    handle = at.index;
     const Joint& joint = rigid_.joint(handle);
     const JointFrame frame = frameOf(joint, state_, rigid_.collider().bodies());
     JointState state = joint.state;
@@ -136,16 +149,21 @@ JointState World::joint(JointHandle handle) const
 
 void World::setMotor(JointHandle handle, bool driven, double speed)
 {
-    requireBelow("joint", handle, rigid_.jointCount());
+    const JointAt at = jointAt(handle);
+    handle = at.index;
     requireFinite("a motor's speed", {speed});
+    if (at.soft) return softJoints_.setMotor(at.index, driven, speed);
     rigid_.joint(handle).def.driven = driven;
     rigid_.joint(handle).def.motorSpeed = speed;
 }
 
 void World::setJointTarget(JointHandle handle, const Vec2& target)
 {
-    requireBelow("joint", handle, rigid_.jointCount());
+    const JointAt at = jointAt(handle);
+    handle = at.index;
     requirePlace("a joint's target", target);
+    if (at.soft && softJoints_.setTarget(at.index, target)) return;
+    if (at.soft) throw Failure(Error("Physics: only a joint with the background has a target."));
     Joint& joint = rigid_.joint(handle);
     if (joint.a == 0)
         joint.localA = target;
@@ -157,7 +175,13 @@ void World::setJointTarget(JointHandle handle, const Vec2& target)
 
 void World::removeJoint(JointHandle handle)
 {
-    requireBelow("joint", handle, rigid_.jointCount());
+    const JointAt at = jointAt(handle);
+    if (at.soft) {
+        softJoints_.remove(at.index);
+        finder_.exclude(softJoints_.excluded());
+        return;
+    }
+    handle = at.index;
     rigid_.removeJoint(handle);
 }
 

@@ -27,6 +27,47 @@ BodyRecord& World::softBody(BodyHandle handle)
     return state_.bodies[handle];
 }
 
+const BodyRecord& World::softBody(BodyHandle handle) const { return const_cast<World*>(this)->softBody(handle); }
+
+std::span<const std::uint32_t> World::pieces(BodyHandle handle) const { return softBody(handle).pieces; }
+
+std::vector<std::vector<std::uint32_t>> World::borders(BodyHandle handle) const
+{
+    softBody(handle);
+    return soft::Tears::rings(state_, handle);
+}
+
+/// Walls get other numbers, so what was found at the old ones is told first, and forgotten.
+void World::cutTorn()
+{
+    if (!tears_.due(state_, springs_)) return;
+    untold_ = false;
+    report();
+    tears_.look(state_, springs_);
+    const auto isCut = [&](Index body) { return tears_.isCut(body); };
+    softContacts_.forget(state_, isCut);
+    auto& points = contacts_.points;
+    points.erase(std::remove_if(points.begin(), points.end(), [&](const ContactPoint& c) { return isCut(c.bodyB); }),
+                 points.end());
+    contacts_.begin(state_);
+}
+
+/// The thesis's scheme has no bound. What runs away is stopped before anything that is not a number gets out.
+void World::refuseExplosion()
+{
+    Nodes& nodes = state_.nodes;
+    for (Index n = 0; n < nodes.size(); ++n) {
+        constexpr double kMost = 0.5 * soft::kMostSpeed;
+        if (nodes.velocity[n].squaredNorm() <= kMost * kMost && std::abs(nodes.omega[n]) <= kMost) continue;
+        const Index handle = nodes.body[n];
+        const Range& own = state_.bodies[handle].nodes;
+        for (Index k = own.first; k < own.end(); ++k) nodes.velocity[k] = Vec2(0, 0), nodes.omega[k] = 0;
+        throw Failure(Error("Physics: body " + std::to_string(handle) +
+                            " explodes: its springs are too stiff for semi-implicit Euler at this time step. Use the "
+                            "method \"automatic\", a smaller time step, or softer springs."));
+    }
+}
+
 void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
 {
     validate(matter);

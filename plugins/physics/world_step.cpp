@@ -38,14 +38,19 @@ void World::step(double dt)
     if (onlySimple()) return stepSimple(dt);
     refresh();
     prepareStiffness();
-    const int count = substepsFor(dt, rate_);
+    const bool plain = settings_.method == Method::SemiImplicitEuler;
+    const int count = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size());
+    stats_.substeps = static_cast<std::uint32_t>(count);
     const double h = dt / count;
-    if (h != preparedFor_) {
-        springs_.prepare(state_, bounds_, h);
-        actuators_.prepare(bounds_, h);
+    if (h != preparedFor_ || plain != plain_) {
+        plain_ = plain;
+        springs_.prepare(state_, bounds_, h, plain);
+        actuators_.prepare(bounds_, h, plain);
         // Warm-start impulses are per substep: scaled, they stand for the same force.
         const double ratio = preparedFor_ > 0 ? h / preparedFor_ : 1;
         for (ContactPoint& c : contacts_.points) c.normalImpulse *= ratio, c.tangentImpulse *= ratio;
+        softContacts_.scale(ratio);
+        softJoints_.scale(ratio);
         preparedFor_ = h;
     }
 
@@ -55,6 +60,7 @@ void World::step(double dt)
         if (!settings_.findCollisions) {
             contacts_.points.clear();
             contacts_.begin(state_);
+            softContacts_.clear();
         } else if (i == 0 || finder_.strayed(state_, now - soughtAt)) {
             if (i == 0) {
                 finder_.find(state_, settings_, dt, contacts_.points, stats_);
@@ -64,6 +70,8 @@ void World::step(double dt)
                 finder_.collectEnded(contacts_.points, ended_);
             }
             contacts_.begin(state_);
+            softContacts_.keep();
+            softContacts_.find(state_, settings_, finder_.motions(), finder_.softPairs(), dt - now, i == 0);
             soughtAt = now;
         }
         if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
@@ -73,9 +81,12 @@ void World::step(double dt)
     if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
     pushed_ = false;
     springs_.flow(state_, dt);
+    softContacts_.keep();
+    if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
     updateReadings(state_);
-    report();
+    untold_ = true;
+    cutTorn();
 }
 
 /// What depends on which springs there are, worked out again only after something was added.
@@ -100,22 +111,29 @@ void World::substep(double h, int index, int count)
         actuators_.addForces(state_);
         if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
         springs_.addForces(state_, h);
+        if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
         integrateVelocities(state_, settings_, springs_.kernels(), h);
         const bool backwards = index % 2 == 1;
-        springs_.applyAngular(state_, h, backwards);
+        if (!plain_) springs_.applyAngular(state_, h, backwards);
         soft::applyPressure(state_, h);
-        if (index == 0) shapes_.look(state_, count * h);
-        shapes_.apply(state_, springs_, h);
-        actuators_.applySprings(state_, h, backwards);
+        if (index == 0 && !plain_) shapes_.look(state_, count * h);
+        if (!plain_) shapes_.apply(state_, springs_, h);
+        if (!plain_) actuators_.applySprings(state_, h, backwards);
+        if (plain_) refuseExplosion();
     }
     const Stopwatch watch(stats_.solverMs);
     rigid_.push(state_);
-    ContactSolver solver(state_, contacts_, h, settings_.applyGravity ? settings_.gravity.norm() : 0);
+    softJoints_.push(state_, h);
+    const double gravity = settings_.applyGravity ? settings_.gravity.norm() : 0;
+    ContactSolver solver(state_, contacts_, h, gravity);
     solver.prepare();
     solver.solve();
+    softContacts_.push(state_, h, gravity);
     integratePositions(state_, springs_.kernels(), h);
     moveKinematic(h);
     rigid_.relax(state_);
+    softJoints_.relax(state_);
+    softContacts_.relax(state_);
     solver.relax();
     solver.finish();
 }
@@ -126,6 +144,7 @@ void World::report()
     touching_.clear();
     for (const ContactPoint& c : contacts_.points) reportContact(c);
     for (const ContactPoint& c : ended_) reportContact(c);
+    softContacts_.each(state_, [&](const ContactPoint& c) { reportContact(c); });
     const std::size_t others = reports_.size();
     rigid_.report(reports_, touching_);
     for (std::size_t i = others; i < reports_.size(); ++i) nameFeatures(reports_[i]);
@@ -143,9 +162,13 @@ void World::reportContact(const ContactPoint& c)
     const double squared = edge.squaredNorm();
     if (!(squared > 0)) return;
     const Vec2& at = points.position[c.point];
-    const Vec2 normal = perpendicular(edge) * (state_.walls.outward[c.wall] / std::sqrt(squared));
-    const double separation = (at - first).dot(normal), along = (at - first).dot(edge) / squared;
-    const bool onWall = (c.inside || (along >= 0 && along <= 1)) && separation <= c.slop + c.thickness &&
+    Vec2 normal = perpendicular(edge) * (state_.walls.outward[c.wall] / std::sqrt(squared));
+    double separation = (at - first).dot(normal);
+    const double along = (at - first).dot(edge) / squared;
+    const double distance = (at - first).norm();
+    const bool round = c.thickness > 0 && along < 0 && separation > 0 && distance > 0 && !c.inside;
+    if (round) normal = (at - first) / distance, separation = distance;
+    const bool onWall = (c.inside || round || (along >= 0 && along <= 1)) && separation <= c.slop + c.thickness &&
                         (c.inside || c.engaged || separation >= -kTouchDepth * c.slop);
     if (!(c.stepImpulse > 0) && !onWall) return;
     reports_.push_back({c.bodyA, c.bodyB, c.point - state_.bodies[c.bodyA].points.first,

@@ -78,6 +78,8 @@ private:
             auto& ring = def.borders.emplace_back();
             for (std::uint32_t i = 0; i < soft.ring; ++i) ring.push_back(i);
         }
+        // The others' particles are circles that reach this far out of the outline.
+        if (soft.ring > 0) def.matter.thickness = scene_.bodies[soft.first].shapes.at(0).radius;
         const BodyHandle handle = world_->addSoftBody(def);
         for (std::uint32_t i = 0; i < soft.count; ++i) places_[soft.first + i] = {handle, i, Vec2(0, 0)};
     }

@@ -4,6 +4,7 @@
 //   jet-bench-physics [--scene NAME]... [--scene-file FILE]... [--threads N] [--simd sse2|avx2]
 //                     [--precision double|single] [--substeps N] [--only ENGINE] [--check FOLDER] [--summary-json FILE]
 #include "bench/physics/quality.hpp"
+#include "bench/physics/quality_soft.hpp"
 
 #include <malloc.h>
 
@@ -50,16 +51,20 @@ Measured measure(const Scene& scene, Engine& engine)
     times.reserve(static_cast<std::size_t>(scene.steps)), walls.reserve(static_cast<std::size_t>(scene.steps));
     for (int i = 0; i < scene.warmUpSteps; ++i) engine.step(scene.dt);
     std::vector<Pose> before = posesOf(engine, scene.bodies.size());
+    SoftWatch watch(scene);
     for (int i = 0; i < scene.steps; ++i) {
         if (i == scene.steps - 1) before = posesOf(engine, scene.bodies.size());
         const double start = milliseconds(CLOCK_THREAD_CPUTIME_ID), wall = milliseconds(CLOCK_MONOTONIC);
         engine.step(scene.dt);
         times.push_back(milliseconds(CLOCK_THREAD_CPUTIME_ID) - start);
         walls.push_back(milliseconds(CLOCK_MONOTONIC) - wall);
+        watch.see(engine);
     }
     Measured result;
     result.heap = heapInUse();
-    result.quality = qualityOf(scene, before, posesOf(engine, scene.bodies.size()));
+    const std::vector<Pose> now = posesOf(engine, scene.bodies.size());
+    result.quality = qualityOf(scene, before, now);
+    if (!scene.soft.empty()) result.quality.update(watch.quality(now));
     result.memory = engine.memory();
     std::sort(times.begin(), times.end());
     std::sort(walls.begin(), walls.end());

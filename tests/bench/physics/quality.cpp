@@ -128,39 +128,6 @@ nlohmann::ordered_json jointErrors(const Scene& scene, const std::vector<Pose>& 
     return {{"mean_joint_error", sum / static_cast<double>(scene.joints.size())}, {"max_joint_error", most}};
 }
 
-double areaOf(const std::vector<Point>& ring)
-{
-    double area = 0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Point &p = ring[i], &q = ring[(i + 1) % ring.size()];
-        area += 0.5 * (p.x * q.y - p.y * q.x);
-    }
-    return area;
-}
-
-nlohmann::ordered_json softQuality(const Scene& scene, const std::vector<Pose>& now)
-{
-    double ratios = 0, least = 1e300;
-    int inverted = 0, outlines = 0;
-    for (const SceneSoft& soft : scene.soft) {
-        if (soft.ring == 0) continue;
-        std::vector<Point> before, after;
-        for (std::uint32_t i = 0; i < soft.ring; ++i)
-            before.push_back(scene.bodies[soft.first + i].position), after.push_back(now[soft.first + i].position);
-        const double ratio = areaOf(after) / areaOf(before);
-        ratios += ratio, least = std::min(least, ratio), inverted += ratio <= 0, ++outlines;
-    }
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    if (outlines > 0) json = {{"mean_area", ratios / outlines}, {"least_area", least}, {"inverted", inverted}};
-    double lowest = 1e300, sum = 0;
-    int count = 0;
-    for (const SceneBody& body : scene.bodies) lowest = std::min(lowest, body.position.y);
-    for (std::size_t i = 0; i < now.size(); ++i)
-        if (scene.bodies[i].position.y < lowest + 0.01 && moves(scene, i)) sum += now[i].position.y, ++count;
-    if (outlines == 0 && count > 0) json["bottom_row_height"] = sum / count;
-    return json;
-}
-
 }  // namespace
 
 std::vector<Pose> posesOf(const Engine& engine, std::size_t bodies)
@@ -180,8 +147,8 @@ nlohmann::ordered_json qualityOf(const Scene& scene, const std::vector<Pose>& be
             ++notFinite;
             continue;
         }
-        escaped += at.x < scene.bounds[0] || at.y < scene.bounds[1] || at.x > scene.bounds[2];
         if (!moves(scene, i)) continue;
+        escaped += at.x < scene.bounds[0] || at.y < scene.bounds[1] || at.x > scene.bounds[2];
         fallen += distance(at, scene.bodies[i].position) > 0.5 + 0.0075 * scene.bodies[i].position.y;
         if (scene.bodies[i].position.y > scene.bodies[top].position.y) top = i;
         fastest = std::max(fastest, distance(at, before[i].position) / scene.dt);
@@ -199,7 +166,6 @@ nlohmann::ordered_json qualityOf(const Scene& scene, const std::vector<Pose>& be
         json["passed"] = passed;
     }
     if (!scene.joints.empty()) json.update(jointErrors(scene, now));
-    if (!scene.soft.empty()) json.update(softQuality(scene, now));
     if (scene.joints.empty() && scene.name != "soft-sheet") json.update(overlaps(scene, now));
     return json;
 }

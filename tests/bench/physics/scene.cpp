@@ -1,5 +1,7 @@
 #include "bench/physics/scene.hpp"
 
+#include "bench/physics/scene_soft.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -175,6 +177,8 @@ const std::vector<std::pair<std::string, std::function<Scene()>>>& makers()
         {"islands", islands},
         {"joint-grid", jointGrid},
         {"tumbler", tumbler},
+        {"soft-balls", softBalls},
+        {"soft-sheet", softSheet},
         {"bullets-static-wall", [] { return bullets(false); }},
         {"bullets-moving-plates", [] { return bullets(true); }},
     };

@@ -1,0 +1,313 @@
+#include "joints.hpp"
+
+#include "mass_sums.hpp"
+
+#include <jet/result.hpp>
+
+#include <numeric>
+
+namespace jet::physics::soft {
+
+namespace {
+
+// As of the rigid solver: joints are stiffer than contacts, and chains of them carry forces far.
+constexpr double kHertz = 120, kHertzPerSubstepRate = 0.25, kDampingRatio = 2;
+constexpr int kPasses = 2;
+constexpr int kNearest = 6;  // particles that hold a point which is none
+
+std::string nameOf(JointDef::Kind kind)
+{
+    switch (kind) {
+    case JointDef::Kind::Revolute: return "a revolute joint with a limit or a motor";
+    case JointDef::Kind::Prismatic: return "a prismatic joint";
+    case JointDef::Kind::Weld: return "a weld";
+    case JointDef::Kind::Wheel: return "a wheel joint";
+    case JointDef::Kind::Motor: return "a motor joint with a torque";
+    default: return "a joint";
+    }
+}
+
+/// Those within the radius; without one the particle at the point, or those nearest to it.
+std::vector<Index> particlesAt(const State& state, const BodyRecord& body, const Anchor& anchor)
+{
+    std::vector<Index> nodes(body.nodes.count);
+    std::iota(nodes.begin(), nodes.end(), body.nodes.first);
+    const auto away = [&](Index n) { return (state.nodes.position[n] - anchor.point).squaredNorm(); };
+    if (anchor.radius > 0) {
+        nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                                   [&](Index n) { return away(n) > anchor.radius * anchor.radius; }),
+                    nodes.end());
+        return nodes;
+    }
+    std::sort(nodes.begin(), nodes.end(),
+              [&](Index p, Index q) { return std::pair(away(p), p) < std::pair(away(q), q); });
+    const bool atParticle = !nodes.empty() && away(nodes[0]) <= 1e-12 * body.length * body.length;
+    nodes.resize(std::min<std::size_t>(nodes.size(), atParticle ? 1 : kNearest));
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+}
+
+}  // namespace
+
+Joints::Hold Joints::hold(const State& state, const Anchor& anchor)
+{
+    Hold hold;
+    hold.local = anchor.point;
+    if (anchor.body == kNoHandle) return hold;
+    const BodyRecord& body = state.bodies[anchor.body];
+    hold.rigid = body.rigid;
+    hold.nodes = body.rigid ? std::vector<Index>{body.nodes.first} : particlesAt(state, body, anchor);
+    if (hold.nodes.empty())
+        throw Failure(Error("Physics: no particle of body " + std::to_string(anchor.body) +
+                            " is within the radius of the joint's anchor; enlarge the radius or move the anchor."));
+    if (!hold.rigid) {
+        const MassSums sums = massSums(
+            state.nodes, hold.nodes.size(), [&](std::size_t i) { return hold.nodes[i]; }, nullptr);
+        for (const Index n : hold.nodes) hold.rest.push_back(state.nodes.position[n] - sums.centre);
+    }
+    const Pose pose = poseOf(state, hold);
+    hold.angle = pose.angle;
+    hold.local = unrotated(pose.rotation, anchor.point - pose.centre);
+    return hold;
+}
+
+void Joints::requireDirection(const JointDef& def, const Hold& a, const Hold& b)
+{
+    using Kind = JointDef::Kind;
+    const bool turning = def.kind == Kind::Weld || def.kind == Kind::Prismatic ||
+                         (def.kind == Kind::Revolute && (def.limited || def.driven)) ||
+                         (def.kind == Kind::Motor && def.maxTorque > 0) || (def.kind == Kind::Wheel && def.driven);
+    for (const Hold* end : {&a, &b}) {
+        if (end->turns() || (!turning && !(def.kind == Kind::Wheel && end == &a))) continue;
+        const BodyHandle body = end == &a ? def.a.body : def.b.body;
+        throw Failure(Error("Physics: " + nameOf(def.kind) + " holds soft body " + std::to_string(body) +
+                            " at a single particle, which has no direction; give the anchor a radius that holds two "
+                            "particles or more."));
+    }
+}
+
+Index Joints::add(const State& state, const JointDef& def)
+{
+    Held held;
+    held.a = hold(state, def.a), held.b = hold(state, def.b);
+    requireDirection(def, held.a, held.b);
+    Joint& joint = held.joint;
+    joint.def = def;
+    joint.a = held.a.background() ? 0 : 1, joint.b = held.b.background() ? 0 : 2;
+    const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
+    joint.restAngle = b.angle - a.angle;
+    const double axisLength = def.axis.norm();
+    joint.localAxis = unrotated(a.rotation, axisLength > 0 ? Vec2(def.axis / axisLength) : Vec2(1, 0));
+    joint.length = def.length;
+    if (def.kind == JointDef::Kind::Pulley) {
+        joint.length = (def.a.point - def.groundA).norm() + def.ratio * (def.b.point - def.groundB).norm();
+    } else if (def.length < 0) {
+        joint.length = (def.b.point - def.a.point).norm();
+    }
+    joints_.push_back(std::move(held));
+    return static_cast<Index>(joints_.size() - 1);
+}
+
+Joints::Pose Joints::poseOf(const State& state, const Hold& hold)
+{
+    const Nodes& nodes = state.nodes;
+    Pose pose;
+    if (hold.background()) return pose;
+    if (hold.rigid) {
+        const Index n = hold.nodes[0];
+        return {nodes.position[n], nodes.velocity[n], nodes.rotation[n],  nodes.angle[n],
+                nodes.omega[n],    nodes.invMass[n],  nodes.invInertia[n]};
+    }
+    const MassSums sums = massSums(
+        nodes, hold.nodes.size(), [&](std::size_t i) { return hold.nodes[i]; },
+        hold.rest.empty() ? nullptr : hold.rest.data());
+    pose.centre = sums.centre, pose.velocity = sums.velocity;
+    const bool held = std::any_of(hold.nodes.begin(), hold.nodes.end(), [&](Index n) { return nodes.invMass[n] == 0; });
+    if (!held) pose.invMass = 1 / sums.mass;
+    const double fit = std::sqrt(sums.along * sums.along + sums.across * sums.across);
+    if (hold.nodes.size() < 2 || !(sums.inertia > 0) || !(fit > 0)) return pose;
+    pose.rotation = Vec2(sums.along, sums.across) / fit;
+    pose.angle = hold.angle + wrapped(angleOf(sums.across, sums.along) - hold.angle);
+    pose.omega = sums.omega();
+    if (!held) pose.invInertia = 1 / sums.inertia;
+    return pose;
+}
+
+/// Spreads what changed of the patch's motion over its particles, as of a rigid body.
+void Joints::give(State& state, const Hold& hold, const Pose& before, const BodyState<double>& after)
+{
+    if (hold.background() || before.invMass == 0) return;
+    const Vec2 change = Vec2(after.velocityX, after.velocityY) - before.velocity;
+    const double turn = after.omega - before.omega;
+    for (const Index n : hold.nodes) {
+        state.nodes.velocity[n] += change;
+        if (hold.rigid) {
+            state.nodes.omega[n] += turn;
+        } else {
+            state.nodes.velocity[n] += turn * perpendicular(state.nodes.position[n] - before.centre);
+        }
+    }
+}
+
+JointFrame Joints::frame(const Held& held, const Pose& a, const Pose& b)
+{
+    JointFrame f;
+    const auto place = [](const Hold& hold, const Pose& pose, Vec2& arm, Vec2& point) {
+        arm = hold.background() ? Vec2(0, 0) : rotated(pose.rotation, hold.local);
+        point = hold.background() ? hold.local : Vec2(pose.centre + arm);
+    };
+    place(held.a, a, f.armA, f.pointA);
+    place(held.b, b, f.armB, f.pointB);
+    f.angle = b.angle - a.angle - held.joint.restAngle;
+    f.axis = rotated(a.rotation, held.joint.localAxis);
+    return f;
+}
+
+void Joints::solve(State& state, Held& held, bool push)
+{
+    Joint& joint = held.joint;
+    const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
+    held.a.angle = a.angle, held.b.angle = b.angle;
+    const JointFrame f = frame(held, a, b);
+    ends_.assign(3, BodyState<double>{});
+    for (const auto& [pose, end] : {std::pair(&a, &ends_[1]), std::pair(&b, &ends_[2])}) {
+        end->velocityX = pose->velocity.x(), end->velocityY = pose->velocity.y(), end->omega = pose->omega;
+        end->invMass = pose->invMass, end->invInertia = pose->invInertia;
+    }
+    rows_.clear();
+    addRows(joint, 0, f, ends_, h_, rows_);
+    const Vec2 apart = f.pointB - f.pointA;
+    if (joint.hasPoint()) {
+        for (int axis = 0; axis < 2; ++axis) {
+            const Vec2 along = axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
+            JointRow<double> row;
+            row.a = joint.a, row.b = joint.b, row.slot = static_cast<Index>(axis);
+            row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(f.armA, along);
+            row.bx = along.x(), row.by = along.y(), row.angularB = cross(f.armB, along);
+            const double give = a.invMass + b.invMass + a.invInertia * row.angularA * row.angularA +
+                                b.invInertia * row.angularB * row.angularB;
+            row.mass = give > 0 ? 1 / give : 0;
+            row.error = apart[axis];
+            row.impulse = joint.impulse[axis];
+            row.least = -1e30, row.most = 1e30;
+            rows_.push_back(row);
+        }
+    }
+    const Softness<double> standard = softnessOf(std::min(kHertz, kHertzPerSubstepRate / h_), kDampingRatio, h_);
+    if (push)
+        for (const JointRow<double>& row : rows_) row.warm(ends_.data());
+    for (int pass = 0; pass < kPasses; ++pass)
+        for (JointRow<double>& row : rows_) row.solve(ends_.data(), standard, 1 / h_, push);
+    give(state, held.a, a, ends_[1]);
+    give(state, held.b, b, ends_[2]);
+    for (const JointRow<double>& row : rows_) {
+        joint.impulse[row.slot] = row.impulse;
+        if (push) continue;
+        held.pushed += row.impulse * Vec2(row.bx, row.by);
+        if (row.bx == 0 && row.by == 0) held.turned += row.impulse * row.angularB;
+    }
+}
+
+void Joints::push(State& state, double h)
+{
+    h_ = h;
+    for (Held& held : joints_)
+        if (held.joint.lives()) solve(state, held, true);
+}
+
+void Joints::relax(State& state)
+{
+    for (std::size_t i = joints_.size(); i-- > 0;)
+        if (joints_[i].joint.lives()) solve(state, joints_[i], false);
+}
+
+bool Joints::settle(Held& held, double dt)
+{
+    Joint& joint = held.joint;
+    joint.state.force = held.pushed / dt, joint.state.torque = held.turned / dt;
+    held.pushed = Vec2(0, 0), held.turned = 0;
+    if (!joint.lives() || !(joint.def.breakForce > 0) || joint.state.force.norm() <= joint.def.breakForce) return false;
+    joint.broken = true;
+    return true;
+}
+
+bool Joints::finish(double dt)
+{
+    bool broke = false;
+    for (Held& held : joints_) broke |= settle(held, dt);
+    return broke;
+}
+
+std::vector<std::pair<Index, Index>> Joints::excluded() const
+{
+    std::vector<std::pair<Index, Index>> pairs;
+    for (const Held& held : joints_) {
+        const JointDef& def = held.joint.def;
+        if (!held.joint.lives() || def.collide || held.a.background() || held.b.background()) continue;
+        pairs.emplace_back(std::min(def.a.body, def.b.body), std::max(def.a.body, def.b.body));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+void Joints::scale(double ratio)
+{
+    for (Held& held : joints_)
+        for (double& impulse : held.joint.impulse) impulse *= ratio;
+}
+
+JointState Joints::state(const State& state, Index index) const
+{
+    const Held& held = joints_[index];
+    const JointFrame f = frame(held, poseOf(state, held.a), poseOf(state, held.b));
+    JointState now = held.joint.state;
+    now.broken = held.joint.broken;
+    now.pointA = f.pointA, now.pointB = f.pointB;
+    const Vec2 apart = f.pointB - f.pointA;
+    switch (held.joint.def.kind) {
+    case JointDef::Kind::Prismatic:
+    case JointDef::Kind::Wheel: now.value = apart.dot(f.axis); break;
+    case JointDef::Kind::Distance:
+    case JointDef::Kind::Rope:
+    case JointDef::Kind::Mouse: now.value = apart.norm(); break;
+    default: now.value = f.angle;
+    }
+    return now;
+}
+
+void Joints::setMotor(Index joint, bool driven, double speed)
+{
+    JointDef def = joints_[joint].joint.def;
+    def.driven = driven, def.motorSpeed = speed;
+    set(joint, def);
+}
+
+void Joints::set(Index index, const JointDef& wanted)
+{
+    Held& held = joints_[index];
+    JointDef def = wanted;
+    def.kind = held.joint.def.kind, def.a = held.joint.def.a, def.b = held.joint.def.b;
+    def.axis = held.joint.def.axis, def.collide = held.joint.def.collide;
+    requireDirection(def, held.a, held.b);
+    held.joint.def = def;
+    if (def.length >= 0 && def.kind != JointDef::Kind::Pulley) held.joint.length = def.length;
+}
+
+bool Joints::setTarget(Index joint, const Vec2& target)
+{
+    Held& held = joints_[joint];
+    Hold* end = held.a.background() ? &held.a : held.b.background() ? &held.b : nullptr;
+    if (end) end->local = target;
+    return end != nullptr;
+}
+
+std::size_t Joints::bytes() const
+{
+    std::size_t sum = joints_.capacity() * sizeof(Held);
+    for (const Held& held : joints_)
+        for (const Hold* end : {&held.a, &held.b})
+            sum += end->nodes.capacity() * sizeof(Index) + end->rest.capacity() * sizeof(Vec2);
+    return sum;
+}
+
+}  // namespace jet::physics::soft

@@ -1,0 +1,93 @@
+// Joints that hold a soft body: to a rigid one, to another soft one, or to the background.
+//
+// A joint does not hold a soft body as a whole, but a patch of it: the particles within Anchor::radius, or those
+// nearest to the point. For the joint the patch is a rigid body of their mass and moment of inertia: where they are,
+// how they move and how the patch has turned (the best fit of its shape at rest) is summed over the particles, and what
+// the joint changes of it is given back to them, so that momentum and angular momentum are kept. So a patch takes the
+// same rows as a rigid body (rigid/joint.hpp). A single particle cannot turn: what needs a direction is refused.
+#pragma once
+
+#include "rigid/joint.hpp"
+
+namespace jet::physics::soft {
+
+class Joints {
+public:
+    /// Checks the anchors; throws a Failure that tells what is missing.
+    Index add(const State&, const JointDef&);
+    bool empty() const { return joints_.empty(); }
+    const JointDef& def(Index joint) const { return joints_[joint].joint.def; }
+    bool lives(Index joint) const { return joints_[joint].joint.lives(); }
+
+    void push(State&, double h);
+    void relax(State&);
+    /// After the last substep of a step of dt: what the joints bore; true when one broke under it.
+    bool finish(double dt);
+    /// Bodies that joints keep from colliding; ascending.
+    std::vector<std::pair<Index, Index>> excluded() const;
+    /// Warm-start impulses are of one substep: for others of another length.
+    void scale(double ratio);
+
+    JointState state(const State&, Index joint) const;
+    void setMotor(Index joint, bool driven, double speed);
+    /// All but the kind, the anchors and what was measured from the pose.
+    void set(Index joint, const JointDef&);
+    /// False when neither end is the background.
+    bool setTarget(Index joint, const Vec2& target);
+    void remove(Index joint) { joints_[joint].joint.removed = true; }
+    std::size_t bytes() const;
+
+    template <class Archive>
+    void archive(Archive& with)
+    {
+        for (Held& held : joints_) {
+            Joint& joint = held.joint;
+            with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length);
+            with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local);
+            JointDef& def = joint.def;
+            with(def.driven), with(def.motorSpeed), with(def.motorVelocity), with(def.limited), with(def.lower);
+            with(def.upper), with(def.maxForce), with(def.maxTorque), with(def.hertz), with(def.dampingRatio);
+            with(def.ratio), with(def.breakForce), with(def.groundA), with(def.groundB);
+            with(joint.state.force), with(joint.state.torque);
+        }
+    }
+
+private:
+    /// One end: nodes of the world; none: the background; one of a rigid body; particles of a soft one.
+    struct Hold {
+        bool rigid = false;
+        std::vector<Index> nodes;
+        std::vector<Vec2> rest;  // particles from their centre of mass, when the joint was added
+        Vec2 local;              // the anchored point, from the centre, in the patch's frame; background: the scene's
+        double angle = 0;        // radians since, unwrapped
+
+        bool background() const { return nodes.empty(); }
+        bool turns() const { return background() || rigid || nodes.size() > 1; }
+    };
+    struct Pose {
+        Vec2 centre = Vec2(0, 0), velocity = Vec2(0, 0), rotation = Vec2(1, 0);
+        double angle = 0, omega = 0, invMass = 0, invInertia = 0;
+    };
+    struct Held {
+        Joint joint;  // a and b: 0 the background, else 1 and 2
+        Hold a, b;
+        Vec2 pushed = Vec2(0, 0);  // impulses on b in this step
+        double turned = 0;
+    };
+
+    static Hold hold(const State&, const Anchor&);
+    static void requireDirection(const JointDef&, const Hold& a, const Hold& b);
+    static Pose poseOf(const State&, const Hold&);
+    static void give(State&, const Hold&, const Pose& before, const BodyState<double>& after);
+    static JointFrame frame(const Held&, const Pose& a, const Pose& b);
+    bool settle(Held&, double dt);
+    void solve(State&, Held&, bool push);
+
+    std::vector<Held> joints_;
+    double h_ = 0;
+    // Scratch.
+    std::vector<JointRow<double>> rows_;
+    std::vector<BodyState<double>> ends_;
+};
+
+}  // namespace jet::physics::soft

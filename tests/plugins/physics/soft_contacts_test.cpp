@@ -1,0 +1,207 @@
+// Contacts between soft bodies, and what soft bodies bear: frequencies, masses, speeds.
+#include "lattices.hpp"
+
+#include <limits>
+
+namespace jet::physics::test {
+
+namespace {
+
+std::unique_ptr<PhysicsWorld> pileOfBalls(Simd simd, double thickness)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 98};
+    settings.simd = simd;
+    auto world = JetPhysics().createWorld(settings);
+    for (int i = 0; i < 9; ++i) {
+        SoftBodyDef ball = defaultBall({50.0 * (i % 3) + 7 * (i / 3), -30 - 50.0 * (i / 3)}, 20, 40);
+        ball.matter.thickness = thickness;
+        world->addSoftBody(ball);
+    }
+    world->addRigidBody(ground(0));
+    world->addRigidBody(fixed({boxRing({-75, -100}, 100, 400), boxRing({190, -100}, 100, 400)}));
+    return world;
+}
+
+/// Least distance of the border points of one body from the border of another, scene units.
+double distanceBetween(const PhysicsWorld& world, BodyHandle a, BodyHandle b, const SoftBodyDef& defB)
+{
+    double least = std::numeric_limits<double>::infinity();
+    const auto from = pointsOf(world, a), to = pointsOf(world, b);
+    const auto& ring = defB.borders[0];
+    for (const Vec2& at : from) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2 &p = to[ring[i]], edge = to[ring[(i + 1) % ring.size()]] - p;
+            const double along = std::clamp((at - p).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+            least = std::min(least, (at - p - along * edge).norm());
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+TEST(SoftContacts, InstructionSetsGiveTheSameBits)
+{
+    auto one = pileOfBalls(Simd::Sse2, 1), other = pileOfBalls(Simd::Avx2, 1);
+    for (int i = 0; i < 240; ++i) {
+        one->step(kStep), other->step(kStep);
+        ASSERT_EQ(one->hash(), other->hash()) << "step " << i;
+    }
+}
+
+TEST(SoftContacts, ARestoredPileHasTheSameFuture)
+{
+    auto world = pileOfBalls(Simd::Automatic, 0);
+    run(*world, 2);
+    EXPECT_GT(world->contacts().size(), 10u);
+    const auto saved = world->save();
+    run(*world, 2);
+    const auto expected = world->hash();
+    world->restore(saved);
+    run(*world, 2);
+    EXPECT_EQ(world->hash(), expected);
+    auto other = pileOfBalls(Simd::Automatic, 0);
+    other->restore(saved);
+    run(*other, 2);
+    EXPECT_EQ(other->hash(), expected);
+}
+
+TEST(SoftContacts, APileComesToRestWithoutOverlapOrInversion)
+{
+    for (const double thickness : {0.0, 2.0}) {
+        auto world = pileOfBalls(Simd::Automatic, thickness);
+        run(*world, 15);
+        const SoftBodyDef ball = defaultBall({0, 0}, 20, 40);
+        for (BodyHandle a = 0; a < 9; ++a) {
+            EXPECT_GT(areaRatio(*world, a, ball), 0.7);
+            EXPECT_LT(world->bodies().velocity[a].norm(), 2);
+            for (BodyHandle b = 0; b < 9; ++b) {
+                if (a == b) continue;
+                EXPECT_GT((world->bodies().position[a] - world->bodies().position[b]).norm(), 20);
+                if (thickness > 0) {
+                    EXPECT_GT(distanceBetween(*world, a, b, ball), 2 * thickness - 0.5);
+                }
+            }
+        }
+    }
+}
+
+TEST(SoftContacts, AHitKeepsMomentumAndAngularMomentum)
+{
+    auto world = makeWorld({0, 0}, 0.4, 0.5);
+    const SoftBodyDef left = defaultBall({0, 0}, 20, 60), right = defaultBall({70, 12}, 20, 60);
+    world->addSoftBody(left);
+    world->addSoftBody(right);
+    world->setVelocity(0, {90, 0});
+    const auto spin = [&] {
+        // From the motion of the particles over a step.
+        const std::vector<Vec2> before(world->bodies().points.begin(), world->bodies().points.end());
+        world->step(kStep);
+        double sum = 0;
+        for (std::size_t i = 0; i < before.size(); ++i)
+            sum += left.masses[0] * cross(before[i], (world->bodies().points[i] - before[i]) / kStep);
+        return sum;
+    };
+    const double turning = spin();
+    bool touched = false;
+    for (int i = 0; i < 120; ++i) {
+        world->step(kStep);
+        touched |= world->touching(0, 1);
+        EXPECT_LT((world->bodies().velocity[0] + world->bodies().velocity[1] - Vec2(90, 0)).norm(), 1e-10);
+    }
+    EXPECT_TRUE(touched);
+    EXPECT_GT(world->bodies().velocity[1].x(), 20);
+    EXPECT_NEAR(spin(), turning, 0.02 * std::abs(turning) + 1);
+}
+
+TEST(SoftContacts, EveryFrequencyOfAHangingSheetIsCalm)
+{
+    // The scene soft-sheet at a smaller size: 30 Hz is a particle's on one spring, k = (2 pi f)² m / 2.
+    constexpr int kSide = 24;
+    for (const double hertz : {30.0, 60.0, 120.0, 240.0, 480.0}) {
+        SoftBodyDef def;
+        const double mass = 0.0254, omega = 2 * 3.14159265358979 * hertz;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            def.particles.emplace_back(0.2 * (i % kSide), 0.2 * (i / kSide));
+            def.movable.push_back(i >= kSide);
+        }
+        def.masses.assign(def.particles.size(), mass);
+        const auto join = [&](std::uint32_t a, std::uint32_t b) {
+            def.springs.push_back(
+                {a, b, (def.particles[a] - def.particles[b]).norm(), omega * omega * mass / 2, 0.1 * omega * mass, 0});
+        };
+        for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+            const bool right = i % kSide + 1 < kSide, below = i / kSide + 1 < kSide;
+            if (right) join(i, i + 1);
+            if (below) join(i, i + kSide);
+            if (right && below) join(i, i + kSide + 1), join(i + 1, i + kSide);
+        }
+        auto world = makeWorld({0, 10});
+        world->addSoftBody(def);
+        // Of motion and of height: what springs hold is left out, so it can only be less than what there was.
+        const auto energy = [&](std::span<const Vec2> before) {
+            const auto now = pointsOf(*world, 0);
+            double sum = 0;
+            for (std::size_t i = 0; i < now.size(); ++i)
+                sum += mass * (0.5 * ((now[i] - before[i]) / kStep).squaredNorm() - 10 * now[i].y());
+            return sum;
+        };
+        const double start = energy(def.particles);
+        double span = 0;  // what it may convert: the fall of the sheet by its own stretch
+        for (const Vec2& p : def.particles) span += mass * 10 * 0.2 * p.y();
+        for (int i = 0; i < 300; ++i) {
+            const auto points = pointsOf(*world, 0);
+            const std::vector<Vec2> before(points.begin(), points.end());
+            world->step(kStep);
+            ASSERT_TRUE(allFinite(*world)) << hertz;
+            ASSERT_LT(energy(before), start + 0.02 * span) << hertz << " Hz, step " << i;
+        }
+    }
+}
+
+TEST(SoftContacts, ASmallBallAtTwentyThousandUnitsASecondDoesNotPassAThinWall)
+{
+    for (const double height : {0.0, 0.21, -0.37}) {
+        auto world = makeWorld({0, 0}, 0.3, 0.2);
+        world->addRigidBody(fixed({boxRing({1000, 0}, 1, 400)}));
+        SoftBodyDef ball = softBall({0, height}, 0.5, 2000, 1, 12, 2);
+        ball.common.velocity = {20000, 0};
+        world->addSoftBody(ball);
+        for (int i = 0; i < 120; ++i) {
+            world->step(kStep);
+            ASSERT_LT(world->bodies().bounds[1].max.x(), 1000.5) << height << " step " << i;
+        }
+        EXPECT_TRUE(allFinite(*world));
+    }
+}
+
+TEST(SoftContacts, NoMassRatioAndNoStepMakesThemExplode)
+{
+    for (const double ratio : {1e-4, 1.0, 1e4}) {
+        for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 1000}) {
+            for (const double ks : {1e-3, 1e3, 1e9}) {
+                auto world = makeWorld({0, 98});
+                SoftBodyDef lower = defaultBall({0, -21}, 20, ks), upper = defaultBall({4, -64}, 20, ks);
+                for (double& mass : upper.masses) mass *= ratio;
+                lower.matter.pressure = 30, lower.matter.selfCollision = true;
+                upper.matter.yield = 0.1, upper.matter.thickness = 1;
+                world->addSoftBody(lower);
+                world->addSoftBody(upper);
+                world->addRigidBody(ground(0));
+                ForceFieldDef wind;
+                wind.kind = ForceFieldDef::Kind::Vortex;
+                wind.strength = 200, wind.reach = 50;
+                world->addForceField(wind);
+                for (int i = 0; i < 120; ++i) world->step(step);
+                ASSERT_TRUE(allFinite(*world)) << ratio << " " << step << " " << ks;
+                for (const Box& box : world->bodies().bounds)
+                    EXPECT_LT(box.size().norm(), 3000) << ratio << " " << step << " " << ks;
+                for (BodyHandle body = 0; body < 2; ++body)
+                    EXPECT_LT(world->bodies().velocity[body].norm(), 3000) << ratio << " " << step << " " << ks;
+            }
+        }
+    }
+}
+
+}  // namespace jet::physics::test
