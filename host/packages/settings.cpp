@@ -40,6 +40,12 @@ Result<void> dropSettings(const Manifest& manifest, const fs::path& configuratio
     const auto listed =
         filterLines(configuration / "disabled-plugins", [&](const std::string& line) { return line == manifest.id; });
     if (!listed) return listed;
+    if (isPluginId(manifest.id)) {
+        const fs::path pages = configuration / "settings" / (manifest.id + ".json");
+        std::error_code problem;
+        fs::remove(pages, problem);
+        if (problem) return Error("cannot be removed: " + problem.message(), Location{pages.string(), 0, 0});
+    }
     // The window keeps the options of tools as "tool\option=..." in the section [tools].
     std::string section;
     return filterLines(configuration / "window.ini", [&](const std::string& line) {

@@ -51,18 +51,6 @@ bool isLowerWord(std::string_view text, std::string_view more)
     });
 }
 
-/// Parts of lower-case letters, digits, '-' and '_', at least two, with dots between.
-bool isPluginId(std::string_view id)
-{
-    int parts = 0;
-    for (;; ++parts) {
-        const std::size_t dot = std::min(id.find('.'), id.size());
-        if (!isLowerWord(id.substr(0, dot), "-_")) return false;
-        if (dot == id.size()) return parts > 0;
-        id.remove_prefix(dot + 1);
-    }
-}
-
 bool isMimeType(const std::string& text)
 {
     const std::size_t slash = text.find('/');
@@ -212,16 +200,9 @@ private:
         const auto texts =
             strings(json[field], pointer, "a list of plugin ids, each a text like \"org.example.name >=1.2 <3\"");
         for (std::size_t i = 0; i < texts.size(); ++i) {
-            const std::string here = pointer + "/" + std::to_string(i);
-            const std::size_t space = std::min(texts[i].find(' '), texts[i].size());
-            Dependency dependency{texts[i].substr(0, space), {}};
-            checkId(here, dependency.id);
-            if (space < texts[i].size()) {
-                const auto range = VersionRange::parse(std::string_view(texts[i]).substr(space + 1));
-                if (!range) fail(here, range.error().message);
-                dependency.range = *range;
-            }
-            list.push_back(std::move(dependency));
+            auto dependency = Dependency::parse(texts[i]);
+            if (!dependency) fail(pointer + "/" + std::to_string(i), dependency.error().message);
+            list.push_back(std::move(*dependency));
         }
         return list;
     }
@@ -327,6 +308,39 @@ Result<Manifest> Manifest::read(const std::filesystem::path& file)
     const auto text = readFile(file);
     if (!text) return text.error();
     return parse(*text, file);
+}
+
+namespace {
+
+/// The first text of a field in what may not be JSON any more.
+std::string textOfField(const std::string& text, const std::string& field)
+{
+    std::size_t at = text.find('"' + field + '"');
+    if (at == std::string::npos) return {};
+    at = text.find_first_not_of(" \t\r\n:", at + field.size() + 2);
+    if (at == std::string::npos || text[at] != '"') return {};
+    const std::size_t end = text.find_first_of("\"\n", at + 1);
+    if (end == std::string::npos || text[end] != '"') return {};
+    return text.substr(at + 1, end - at - 1);
+}
+
+}  // namespace
+
+Manifest Manifest::unreadable(const std::filesystem::path& file)
+{
+    Manifest manifest;
+    const auto text = readFile(file);
+    const Json json = text ? Json::parse(*text, nullptr, false, true) : Json();
+    const auto field = [&](const char* name) {
+        if (json.is_object())
+            return json.value(name, Json()).is_string() ? json[name].get<std::string>() : std::string();
+        return text ? textOfField(*text, name) : std::string();
+    };
+    manifest.id = field("id");
+    if (!isPluginId(manifest.id)) manifest.id = file.parent_path().filename().string();
+    manifest.name = field("name");
+    if (manifest.name.empty()) manifest.name = manifest.id;
+    return manifest;
 }
 
 }  // namespace jet::host

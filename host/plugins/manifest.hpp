@@ -25,6 +25,8 @@ struct Manifest {
     /// Reads plugin.json. The error names file, line, column and field.
     static Result<Manifest> read(const std::filesystem::path& file);
     static Result<Manifest> parse(const std::string& text, const std::filesystem::path& file);
+    /// Of a file that read() refuses: what it says of id and name, or else the folder's name. To list it by.
+    static Manifest unreadable(const std::filesystem::path& file);
 };
 
 }  // namespace jet::host

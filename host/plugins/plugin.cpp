@@ -8,7 +8,10 @@ std::string_view originName(PluginOrigin origin)
     return names[static_cast<int>(origin)];
 }
 
-std::string Plugin::title() const { return manifest.name + " (" + manifest.id + " " + manifest.version.text() + ")"; }
+std::string Plugin::title() const
+{
+    return manifest.name + " (" + manifest.id + (broken ? ")" : " " + manifest.version.text() + ")");
+}
 
 std::vector<CallbackCost> callbackCosts(const Plugin& plugin)
 {

@@ -65,6 +65,8 @@ struct Plugin {
         const PluginState now = state;
         return now != PluginState::Disabled && now != PluginState::Shadowed && now != PluginState::Faulted;
     }
+    /// Empty where its manifest cannot be read.
+    std::string versionText() const { return broken ? std::string() : manifest.version.text(); }
     /// "Rectangle (org.jet.tool.rectangle 1.0.0)".
     std::string title() const;
 };

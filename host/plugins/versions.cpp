@@ -44,7 +44,39 @@ Version endOfCaret(const Written& w)
     return nextPatch(w.version);
 }
 
+bool isLowerWord(std::string_view text)
+{
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    });
+}
+
 }  // namespace
+
+bool isPluginId(std::string_view id)
+{
+    int parts = 0;
+    for (;; ++parts) {
+        const std::size_t dot = std::min(id.find('.'), id.size());
+        if (!isLowerWord(id.substr(0, dot))) return false;
+        if (dot == id.size()) return parts > 0;
+        id.remove_prefix(dot + 1);
+    }
+}
+
+Result<Dependency> Dependency::parse(std::string_view text)
+{
+    const std::size_t space = std::min(text.find(' '), text.size());
+    Dependency dependency{std::string(text.substr(0, space)), {}};
+    if (!isPluginId(dependency.id))
+        return Error("'" + dependency.id +
+                     "' is not an id; write it as org.example.name: lower-case letters, digits, '-', '_' and dots");
+    if (space == text.size()) return dependency;
+    const auto range = VersionRange::parse(text.substr(space + 1));
+    if (!range) return range.error();
+    dependency.range = *range;
+    return dependency;
+}
 
 std::string Version::text() const
 {
@@ -122,10 +154,12 @@ Result<void> VersionRange::narrow(std::string_view comparator)
     return {};
 }
 
+bool VersionRange::isExact() const { return before_ && *before_ == nextPatch(from_); }
+
 std::string VersionRange::inWords() const
 {
     if (isAny()) return "any version";
-    if (before_ && *before_ == nextPatch(from_)) return "version " + from_.text();
+    if (isExact()) return "version " + from_.text();
     if (!before_) return "version " + from_.text() + " or a later one";
     if (from_ == Version{}) return "a version before " + before_->text();
     return "version " + from_.text() + " or a later one before " + before_->text();

@@ -30,6 +30,8 @@ public:
 
     bool admits(const Version& version) const { return version >= from_ && (!before_ || version < *before_); }
     bool isAny() const { return from_ == Version{} && !before_; }
+    /// One version only?
+    bool isExact() const;
     /// As it was written.
     const std::string& text() const { return text_; }
     /// For people: "1.2.0 or later, below 3.0.0".
@@ -43,10 +45,15 @@ private:
     std::string text_;
 };
 
+/// Parts of lower-case letters, digits, '-' and '_', at least two, with dots between.
+bool isPluginId(std::string_view id);
+
 /// Another plugin and the versions of it that are meant: "org.acme.rope" or "org.acme.rope >=1.2 <3".
 struct Dependency {
     std::string id;
     VersionRange range;
+    /// An id, and a range if wanted, with a space between.
+    static Result<Dependency> parse(std::string_view text);
     bool admits(const Version& version) const { return range.admits(version); }
     std::string text() const { return range.isAny() ? id : id + " " + range.text(); }
 };

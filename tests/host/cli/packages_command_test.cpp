@@ -143,11 +143,14 @@ TEST_F(PackagesTest, AnUpdateReplacesAndKeepsSettingsAndADowngradeWantsForce)
     EXPECT_EQ(plain("plugins install --force " + old).code, 0);
     EXPECT_EQ(version("org.acme.rope"), "1.0.0");
 
+    write("config/jet/settings/org.acme.rope.json", R"({ "rope": { "slack": "0.2" } })");
     EXPECT_EQ(plain("plugins remove org.acme.rope").code, 0);
     EXPECT_EQ(read("config/jet/disabled-plugins"), "org.acme.rope\n");
+    EXPECT_TRUE(exists("config/jet/settings/org.acme.rope.json"));
     ASSERT_EQ(plain("plugins install " + old).code, 0);
     EXPECT_EQ(plain("plugins remove --purge org.acme.rope").code, 0);
     EXPECT_EQ(read("config/jet/disabled-plugins"), "");
+    EXPECT_FALSE(exists("config/jet/settings/org.acme.rope.json")) << "values of its settings pages";
 }
 
 TEST_F(PackagesTest, WhatIsRequiredMustBeThereAndWhoRequiresItIsNamed)

@@ -195,7 +195,12 @@ TEST(Settings, DroppingThemLeavesThoseOfOthers)
     manifest.contributions.push_back(std::move(rope));
     std::ofstream(folder.path() / "disabled-plugins") << "a.other\na.rope\n";
     std::ofstream(folder.path() / "window.ini") << "[layout]\nrope\\x=1\n[tools]\nrope\\size=3, 5\nropes\\size=3, 6\n";
+    std::filesystem::create_directories(folder.path() / "settings");
+    std::ofstream(folder.path() / "settings/a.rope.json") << "{}";
+    std::ofstream(folder.path() / "settings/a.ropes.json") << "{}";
     ASSERT_TRUE(dropSettings(manifest, folder.path()));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "settings/a.rope.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "settings/a.ropes.json"));
     EXPECT_EQ(*readFile(folder.path() / "disabled-plugins"), "a.other\n");
     EXPECT_EQ(*readFile(folder.path() / "window.ini"), "[layout]\nrope\\x=1\n[tools]\nropes\\size=3, 6\n");
 }
