@@ -37,7 +37,7 @@ JetRunWindow loadWindow(std::string& problem)
 }
 
 /// The plugins beside a project, if the user trusts them or says so now. Returns what the user should know.
-std::string bringIn(const fs::path& project, PluginManager& plugins, const GlobalOptions& global,
+std::string bringIn(const fs::path& project, PluginManager& plugins, bool trust,
                     const std::function<bool(const std::string&)>& ask)
 {
     const auto found = findProjectPlugins(project);
@@ -45,14 +45,14 @@ std::string bringIn(const fs::path& project, PluginManager& plugins, const Globa
         if (plugin->origin == PluginOrigin::Project && (!found || plugin->folder.parent_path() != found->folder))
             plugins.removeFolder(fs::path(plugin->folder));  // of the project that was open before
     if (!found) return {};
-    if (global.safeMode) return "The plugins of the project are left out in safe mode.";
+    if (plugins.options().safeMode) return "The plugins of the project are left out in safe mode.";
     if (!found->isTrusted()) {
         if (found->fingerprint.empty()) return found->advice();
         std::string question = found->trust == ProjectPlugins::Trust::Changed
                                    ? "The plugins of this project changed since you trusted it:"
                                    : "This project brings plugins of its own:";
         for (const std::string& name : found->names) question += "\n" + (found->folder / name).string();
-        if (!global.trust && !ask(question)) return found->advice();
+        if (!trust && !ask(question)) return found->advice();
         if (const auto stored = trustProject(*found); !stored) return stored.error().text();
     }
     plugins.addFolder(found->folder, PluginOrigin::Project);
@@ -78,6 +78,24 @@ PackageActions packageActions(PluginManager& plugins)
     return actions;
 }
 
+/// Are the plugins those that the set or the project records? Says on stderr where they differ.
+bool isAsRecorded(Session& session, const fs::path& project)
+{
+    try {
+        if (project.empty()) {
+            session.compareWithSet();
+        } else {
+            session.useProjectPlugins(project);
+            session.comparePlugins(
+                *Project::load(session.readable(project), session.events(), session.plugins()).orThrow());
+        }
+        return true;
+    } catch (const Failure& failure) {
+        session.error(failure.error());
+        return false;
+    }
+}
+
 }  // namespace
 
 int runEditor(int argc, char** argv, const GlobalOptions& global, const std::filesystem::path& project)
@@ -96,10 +114,14 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
         return kFailed;
     }
     Session session(global);
+    session.lookForSetsOf(project);
+    if (global.frozen && !isAsRecorded(session, project)) return kFailed;
     PluginManager& plugins = session.plugins();
     PluginControl control(plugins, session.events(), packageActions(plugins));
     const auto useProjectPlugins = [&](const fs::path& file, const std::function<bool(const std::string&)>& ask) {
-        const std::string told = bringIn(file, plugins, global, ask);
+        std::string told = control.setProject(file);
+        const std::string left = bringIn(file, plugins, global.trust, ask);
+        told += (told.empty() || left.empty() ? "" : " ") + left;
         session.events().post(&control, PluginsChanged{});
         return told;
     };
@@ -109,11 +131,14 @@ int runEditor(int argc, char** argv, const GlobalOptions& global, const std::fil
     launch.runtime = &runtime;
     const auto crashes = session.crashes();
     for (const CrashReport& crash : crashes) launch.crashes.push_back({crash.plugin, crash.message});
-    launch.goOnWithout = [&](const std::vector<std::string>& ids) {
-        plugins.leaveOut(ids);
+    launch.goOn = [&](const std::vector<std::string>& ids, bool safeMode) {
+        plugins.leaveOut(ids, safeMode);
+        if (safeMode && global.set.empty()) plugins.useSet(std::nullopt);  // one that was chosen for all runs
         for (const CrashReport& crash : crashes) CrashLedger::settled(crash);
     };
     launch.watch = global.watch;
+    launch.frozen = global.frozen;
+    launch.setReloader = [&control](auto reload) { control.setReloader(std::move(reload)); };
     return run(argc, argv, launch);
 }
 

@@ -13,6 +13,7 @@ public:
     void guardEvent(std::string_view plugin, const std::function<void()>& deliver) override;
     void showLife() override;
     bool isUsable(std::string_view plugin) const override;
+    bool isInCall(std::string_view plugin) const override { return manager_.isInCall(plugin); }
     std::string ownerOf(const void* address) const override;
     void blame(std::string_view plugin, std::exception_ptr problem) override;
     std::filesystem::path folderOf(std::string_view plugin) const override;

@@ -5,6 +5,7 @@
 #include "plugin_new_command.hpp"
 #include "project_check_command.hpp"
 #include "recovery_commands.hpp"
+#include "set_commands.hpp"
 
 #include "host/plugins/suggest.hpp"
 
@@ -20,8 +21,10 @@ namespace {
 
 void addGlobal(CLI::App& app, GlobalOptions& global)
 {
-    app.add_option("--plugins", global.set, "Plugin set to use: a .jetset file or the name of a shipped set")
-        ->type_name("SET");
+    app.add_option("--plugins", global.set,
+                   "Use these plugins only: sets by name or .jetset file, and ids of plugins, separated by commas")
+        ->type_name("SET|FILE|ID,...");
+    app.add_flag("--frozen", global.frozen, "Fail unless the plugins are in the exact versions that are recorded");
     app.add_option("--plugin-path", global.pluginPath, "Folder of further plugins")
         ->type_name("DIR")
         ->take_all()
@@ -121,6 +124,7 @@ void addPlugins(CLI::App& app, Parsed& parsed)
         [&parsed] { parsed.run = [&](Session& s) { return trustPlugins(s, parsed.project, !parsed.revoke); }; });
     one("enable", "Switch a plugin on", [](Session& s, const std::string& id) { return enablePlugin(s, id, true); });
     one("disable", "Switch a plugin off", [](Session& s, const std::string& id) { return enablePlugin(s, id, false); });
+    addSetCommands(*plugins, parsed.run);
     addPackageCommands(*plugins, parsed.run);
     addNewPluginCommand(*plugins, parsed.run);
     addCheckCommands(*plugins, parsed.run);

@@ -123,6 +123,7 @@ private:
 
     int runIntoOneProject()
     {
+        session_.compareWithSet();
         auto project = emptyProject(options_.output.stem().string());
         std::size_t failed = 0;
         for (const fs::path& input : options_.inputs) {
@@ -157,7 +158,9 @@ private:
             session_.useProjectPlugins(input);
             project = Project::load(session_.readable(input), session_.events(), session_.plugins()).orThrow();
             for (const FormatNote& note : project->notes()) session_.warning(note.message, note.where);
+            session_.comparePlugins(*project);
         } else {
+            session_.compareWithSet();
             project = emptyProject(output.stem().string());
             importInto(project->addScene("Scene 0"), input);
         }

@@ -20,7 +20,7 @@ Json describe(const Plugin& plugin)
 {
     Json json{{"id", plugin.manifest.id},
               {"name", plugin.manifest.name},
-              {"version", plugin.manifest.version.text()},
+              {"version", plugin.versionText()},
               {"state", std::string(stateName(plugin.state))},
               {"reason", plugin.reason},
               {"description", plugin.manifest.description},
@@ -53,6 +53,7 @@ std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error
 
 int listPlugins(Session& session)
 {
+    session.compareWithSet();
     const auto all = session.plugins().plugins();
     if (session.options().json) {
         Json list = Json::array();
@@ -64,7 +65,7 @@ int listPlugins(Session& session)
     for (const Plugin* plugin : all) width = std::max(width, plugin->manifest.id.size());
     for (const Plugin* plugin : all) {
         std::printf("%-*s  %-8s %-9s %s\n", static_cast<int>(width), plugin->manifest.id.c_str(),
-                    plugin->manifest.version.text().c_str(), std::string(stateName(plugin->state)).c_str(),
+                    plugin->broken ? "-" : plugin->versionText().c_str(), std::string(stateName(plugin->state)).c_str(),
                     plugin->reason.empty() ? plugin->manifest.description.c_str() : plugin->reason.c_str());
     }
     return kOk;
@@ -72,6 +73,7 @@ int listPlugins(Session& session)
 
 int pluginInfo(Session& session, const std::string& id)
 {
+    session.compareWithSet();
     PluginManager& plugins = session.plugins();
     const Plugin* plugin = plugins.plugin(id);
     if (!plugin) {
@@ -134,9 +136,9 @@ std::string guess(const PluginManager& plugins, const std::string& name)
 
 int explainContribution(Session& session, const std::string& id, const std::filesystem::path& project)
 {
+    if (!project.empty()) session.useProjectPlugins(project);
     PluginManager& plugins = session.plugins();
     if (!project.empty()) {
-        session.useProjectPlugins(project);
         if (auto opened = Project::load(project, session.events(), plugins); !opened) {
             session.error(opened.error());
             return kFailed;

@@ -68,8 +68,17 @@ void tell(Session& session, const Finding& finding)
     }
 }
 
-Json jsonOf(const Session& session, const CheckReport& report, std::size_t unsaved)
+Json jsonOf(const Session& session, const CheckReport& report, std::size_t unsaved,
+            const std::vector<PluginDifference>& differences)
 {
+    Json plugins = Json::array();
+    for (const PluginDifference& one : differences)
+        plugins.push_back({{"plugin", one.id},
+                           {"wanted", one.wanted},
+                           {"here", one.here},
+                           {"uses", one.uses},
+                           {"reason", one.reason},
+                           {"remedy", one.remedy}});
     Json notes = Json::array(), problems = Json::array(), errors = Json::array(), written = Json::array();
     if (report.project)
         for (const FormatNote& note : report.project->notes())
@@ -83,8 +92,8 @@ Json jsonOf(const Session& session, const CheckReport& report, std::size_t unsav
         if (isError(finding) && !finding.repaired) errors.push_back(placed(session, finding.problem, finding.where));
     }
     for (const fs::path& file : report.written) written.push_back(file.string());
-    return {{"ok", report.isFine()}, {"notes", notes},       {"unsavedChanges", unsaved},
-            {"errors", errors},      {"problems", problems}, {"written", written}};
+    return {{"ok", report.isFine()}, {"notes", notes},     {"unsavedChanges", unsaved}, {"errors", errors},
+            {"problems", problems},  {"written", written}, {"plugins", plugins}};
 }
 
 void printSummary(const Session& session, const CheckReport& report)
@@ -125,9 +134,11 @@ try {
     for (const Finding& finding : report->findings) tell(session, finding);
     if (report->project)
         for (const FormatNote& note : report->project->notes()) session.warning(note.message, note.where);
+    std::vector<PluginDifference> differences;
+    if (report->project) differences = session.comparePlugins(*report->project);
     const std::size_t unsaved = tellUnsavedChanges(session, report->file);
     if (session.options().json) {
-        print(jsonOf(session, *report, unsaved));
+        print(jsonOf(session, *report, unsaved, differences));
     } else {
         printSummary(session, *report);
     }

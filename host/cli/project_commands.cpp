@@ -18,6 +18,7 @@ std::unique_ptr<Project> openProject(Session& session, const fs::path& path)
         return nullptr;
     }
     for (const FormatNote& note : (*project)->notes()) session.warning(note.message, note.where);
+    session.comparePlugins(**project);
     return std::move(*project);
 }
 

@@ -1,37 +1,15 @@
 #include "session.hpp"
 
+#include "host/plugins/plugin_differences.hpp"
+#include "host/plugins/plugin_set_files.hpp"
 #include "host/plugins/project_trust.hpp"
 #include "host/projects/project_archive.hpp"
-
-#include <jet/format.hpp>
-
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 
 namespace jet::host {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// A set is JSON: { "name": "...", "plugins": ["org.jet.…", …] }; by path, or by name beside the built-in plugins.
-std::set<std::string> readSet(const std::string& name)
-{
-    fs::path file = name;
-    if (file.extension() != ".jetset") file = builtInPluginFolder().parent_path() / "sets" / (name + ".jetset");
-    const auto text = readFile(file);
-    if (!text) throw Failure(text.error());
-    const auto json = nlohmann::json::parse(*text, nullptr, false, true);
-    if (!json.is_object() || !json.contains("plugins") || !json["plugins"].is_array())
-        throw Failure(Error("a plugin set is { \"name\": ..., \"plugins\": [ids] }", Location{file.string(), 1, 1}));
-    std::set<std::string> ids;
-    for (const auto& id : json["plugins"])
-        if (id.is_string()) ids.insert(id.get<std::string>());
-    return ids;
-}
-
-}  // namespace
 
 struct Session::Unpacked {
     fs::path packed;
@@ -57,9 +35,8 @@ void Session::printCrashes()
     }
 }
 
-PluginManager& Session::plugins()
+PluginOptions Session::pluginOptions()
 {
-    if (plugins_) return *plugins_;
     PluginOptions options;
     options.builtIn = builtInPluginFolder();
     options.searchPath = options_.pluginPath;
@@ -75,11 +52,27 @@ PluginManager& Session::plugins()
     options.disabled = readDisabledPlugins();
     if (const fs::path config = userConfigFolder(); !config.empty()) options.settings = config / "settings";
     options.safeMode = options_.safeMode;
-    if (!options_.set.empty()) {
-        options.only = readSet(options_.set);
-        options.setName = fs::path(options_.set).stem().string();
-    }
-    plugins_ = std::make_unique<PluginManager>(std::move(options));
+    options.set = chosenSet();
+    return options;
+}
+
+std::optional<PluginSet> Session::chosenSet()
+{
+    const PluginSetFiles files(project_.empty() ? setsOf_ : readable(project_));
+    if (!options_.set.empty()) return files.choose(options_.set).orThrow();
+    const std::string stored = options_.safeMode ? std::string() : readChosenSet();
+    if (stored.empty()) return std::nullopt;
+    auto set = files.read(stored);
+    if (set) return std::move(*set);
+    warning("the plugin set '" + stored + "', which was chosen earlier, is not used, but all plugins: " +
+            set.error().text() + "; 'jet plugins sets use' chooses another one");
+    return std::nullopt;
+}
+
+PluginManager& Session::plugins()
+{
+    if (plugins_) return *plugins_;
+    plugins_ = std::make_unique<PluginManager>(pluginOptions());
     plugins_->setProblemHandler([this](const PluginProblem& problem) {
         const std::lock_guard lock(mutex_);
         problems_.push_back(problem);
@@ -88,6 +81,8 @@ PluginManager& Session::plugins()
     plugins_->scan();
     static const CrashLedger ledger(CrashLedger::defaultFolder());  // one a process
     watchdog_ = std::make_unique<Watchdog>();
+    bringInProject();
+    tellOfSet();
     return *plugins_;
 }
 
@@ -102,19 +97,65 @@ fs::path Session::readable(const fs::path& project)
 
 void Session::useProjectPlugins(const fs::path& project)
 {
-    auto found = findProjectPlugins(readable(project));
+    project_ = project;
+    if (plugins_)
+        bringInProject();
+    else
+        (void)plugins();
+}
+
+void Session::bringInProject()
+{
+    if (project_.empty()) return;
+    if (auto set = PluginSetFiles(readable(project_)).ofProject()) {
+        if (!*set) return error(set->error());
+        plugins_->setProjectSet(std::move(**set));
+    }
+    auto found = findProjectPlugins(readable(project_));
     if (!found) return;
     // Trust is in a folder that stays: the copy is another one each time.
-    if (isPackedProject(project))
+    if (isPackedProject(project_))
         return warning("the plugins of a packed project are left out; unpack it with 'jet project unpack' to use them",
-                       Location{project.string(), 0, 0});
+                       Location{project_.string(), 0, 0});
     if (options_.safeMode) return warning("the plugins of the project are left out in safe mode");
     if (options_.trust && !found->isTrusted()) {
         trustProject(*found).orThrow();
         found->trust = ProjectPlugins::Trust::Trusted;
     }
     if (!found->isTrusted()) return warning(found->advice());
-    plugins().addFolder(found->folder, PluginOrigin::Project);
+    plugins_->addFolder(found->folder, PluginOrigin::Project);
+}
+
+// --- what should be here
+
+void Session::tellOfSet()
+{
+    const auto& set = plugins_->options().set;
+    if (!set) return;
+    for (const Error& remark : set->warnings) warning(remark.message, remark.where);
+    if (options_.frozen) return checkFrozen(*plugins_, nullptr).orThrow();
+    for (const PluginDifference& difference : setDifferences(*plugins_, *set)) {
+        Location where{set->file.string(), 0, 0};
+        for (const PluginSet::Entry* entry : set->entries())
+            if (entry->plugin.id == difference.id && entry->where.line > 0) where = entry->where;
+        const Plugin* plugin = plugins_->plugin(difference.id);
+        const bool wrong = !plugin || (!plugin->broken && !set->admits(difference.id, plugin->manifest.version));
+        if (wrong) warning(sentenceOf(difference), where);
+    }
+}
+
+std::vector<PluginDifference> Session::comparePlugins(const Project& project)
+{
+    if (options_.frozen) checkFrozen(plugins(), &project).orThrow();
+    auto differences = projectDifferences(plugins(), project);
+    for (const PluginDifference& difference : differences)
+        warning(sentenceOf(difference), Location{project.file().string(), 0, 0});
+    return differences;
+}
+
+void Session::compareWithSet()
+{
+    if (options_.frozen) checkFrozen(plugins(), nullptr).orThrow();
 }
 
 std::string Session::named(std::string text) const

@@ -7,6 +7,8 @@
 #include "host/plugins/watchdog.hpp"
 
 #include <jet/events.hpp>
+#include <jet/plugins.hpp>
+#include <jet/project.hpp>
 #include <jet/result.hpp>
 
 #include <filesystem>
@@ -25,7 +27,8 @@ struct GlobalOptions {
     std::vector<std::filesystem::path> pluginPath;
     std::vector<std::filesystem::path> watch;  // also part of pluginPath
     std::vector<std::string> without;
-    std::string set;
+    std::string set;      ///< the value of --plugins: names and files of sets, ids of plugins
+    bool frozen = false;  ///< exact versions or nothing
     bool safeMode = false;
     bool trust = false;  ///< trust the plugins of the projects that are opened
     bool json = false;
@@ -39,11 +42,20 @@ public:
 
     const GlobalOptions& options() const { return options_; }
     EventsCenter& events() { return events_; }
-    /// Scans the plugins on first use. Throws Failure when the plugin set cannot be read.
+    /// Scans the plugins on first use. Throws Failure when the plugin set cannot be read, or with --frozen when other
+    /// plugins are there than it names.
     PluginManager& plugins();
 
-    /// Brings in the plugins beside the project file; warns where they are left out because nobody trusted them yet.
+    /// Brings in the plugins beside the project file and reads its plugins.jetset; warns where plugins are left out
+    /// because nobody trusted them yet. Before plugins(), where that is to find the set "project".
     void useProjectPlugins(const std::filesystem::path& project);
+    /// Where the set "project" is found, for a program that brings in the project's plugins itself. Before plugins().
+    void lookForSetsOf(const std::filesystem::path& project) { setsOf_ = project; }
+    /// Warns of plugins that are not as the project was saved with, and answers them; with --frozen throws Failure that
+    /// lists them.
+    std::vector<PluginDifference> comparePlugins(const Project& project);
+    /// There is no project to compare with: with --frozen and without a set throws Failure.
+    void compareWithSet();
 
     /// The project to read: the path itself, or, of a packed project (*.jetz), a copy that goes with the session.
     /// Messages name the packed file. Throws Failure when it cannot be unpacked.
@@ -65,11 +77,17 @@ public:
 
 private:
     void tell(const std::string& text);
+    PluginOptions pluginOptions();
+    std::optional<PluginSet> chosenSet();
+    void bringInProject();
+    void tellOfSet();
 
     GlobalOptions options_;
     EventsCenter events_;
     mutable std::mutex mutex_;             // guards the problems: plugins fail on any thread
     std::vector<PluginProblem> problems_;  // not yet told
+    std::filesystem::path project_;        // whose plugins came in last
+    std::filesystem::path setsOf_;
     std::unique_ptr<PluginManager> plugins_;
     std::unique_ptr<Watchdog> watchdog_;
     struct Unpacked;

@@ -1,5 +1,6 @@
 // What the user chose for a plugin, kept in the configuration folder apart from the plugin itself: whether it is
-// switched off, the options of its tools, and its settings pages. Stays through updates and removal, until it is dropped here.
+// switched off, the options of its tools, and its settings pages. Stays through updates and removal, until it is
+// dropped here.
 #pragma once
 
 #include "host/plugins/manifest.hpp"

@@ -16,7 +16,7 @@ PluginInfo describe(const Plugin& plugin)
     PluginInfo info;
     info.id = manifest.id;
     info.name = manifest.name;
-    info.version = manifest.version.text();
+    info.version = plugin.versionText();
     info.description = manifest.description;
     info.license = manifest.license;
     info.folder = plugin.folder;
@@ -60,6 +60,7 @@ std::uint64_t mappedBytes(const std::filesystem::path& file)
 PluginControl::PluginControl(PluginManager& manager, EventsCenter& events, PackageActions packages)
     : manager_(manager), events_(events), packages_(std::move(packages))
 {
+    if (const auto& set = manager_.options().set; set && set->source == SetSource::CommandLine) startSet_ = set;
     manager_.settingsStore().onChanged = [this](const SettingsChanged& change) { events_.post(this, change); };
 }
 
@@ -116,6 +117,7 @@ Result<PluginChange> PluginControl::setEnabled(std::string_view id, bool enabled
     std::set<std::string> ids{std::string(id)};
     if (enabled)
         for (std::string& need : requirements(id)) ids.insert(std::move(need));
+    const bool leftOut = plugin->leftOut;
     auto disabled = readDisabledPlugins();
     for (const std::string& one : ids) {
         if (enabled)
@@ -137,6 +139,9 @@ Result<PluginChange> PluginControl::setEnabled(std::string_view id, bool enabled
     } else {
         change.message = name + " is switched " + (enabled ? "on." : "off.");
     }
+    const auto& set = manager_.options().set;
+    if (enabled && leftOut && set)
+        change.message += " It is not in the plugin set '" + set->name + "': this holds until JET ends.";
     tell(change.plugins);
     return change;
 }

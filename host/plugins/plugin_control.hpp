@@ -35,18 +35,33 @@ public:
     Result<PluginChange> setEnabled(std::string_view id, bool enabled) override;
     Result<PluginChange> install(const std::filesystem::path& file) override;
     Result<PluginChange> remove(std::string_view id) override;
+    /// By setReloader(); refuses without one.
+    Result<PluginChange> reload(std::string_view id) override;
     std::shared_ptr<Settings> settings(std::string_view page) override { return manager_.settings(page); }
     Provider whoProvides(ContributionKind kind, std::string_view id) const override
     {
         return manager_.whoProvides(kind, id);
     }
+    std::vector<PluginSetInfo> sets() const override;
+    Result<PluginChange> useSet(std::string_view name) override;
+    Result<PluginSetInfo> saveSet(std::string_view name) override;
+    std::vector<PluginDifference> differences(const Project& project) const override;
+
+    /// Who swaps libraries and makes tools and panels anew: the window.
+    void setReloader(std::function<Result<PluginChange>(const std::string& id)> reload) { reload_ = std::move(reload); }
+    /// The project whose plugins.jetset can be chosen, and whose versions are preferred. Answers what is wrong with it.
+    std::string setProject(const std::filesystem::path& project);
 
 private:
+    PluginSetInfo infoOf(const Result<PluginSet>& set, const std::string& name) const;
     void tell(const std::vector<std::string>& ids) { events_.post(this, PluginsChanged{ids}); }
 
     PluginManager& manager_;
     EventsCenter& events_;
     PackageActions packages_;
+    std::function<Result<PluginChange>(const std::string&)> reload_;
+    std::optional<PluginSet> startSet_;  // of the command line: has no name to find it by
+    std::filesystem::path project_;
 };
 
 /// Bytes of this process that are mapped from the file. 0 where it is not mapped.

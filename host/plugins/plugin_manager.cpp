@@ -74,8 +74,7 @@ std::vector<std::string> PluginManager::readFolder(const fs::path& folder, Plugi
             plugin->manifest = std::move(*manifest);
             plugin->state = PluginState::Valid;
         } else {
-            plugin->manifest.id = candidate.filename().string();
-            plugin->manifest.name = plugin->manifest.id;
+            plugin->manifest = Manifest::unreadable(file);
             plugin->broken = true;
             plugin->state = PluginState::Faulted;
             plugin->reason = manifest.error().text();
@@ -90,10 +89,8 @@ std::vector<std::string> PluginManager::readFolder(const fs::path& folder, Plugi
 void PluginManager::adopt(std::unique_ptr<Plugin> plugin)
 {
     auto& place = plugins_[plugin->manifest.id];
-    const auto wanted = options_.wanted.find(plugin->manifest.id);
-    const auto rank = [&](const Plugin& p) {
-        const bool fits = wanted == options_.wanted.end() || wanted->second.admits(p.manifest.version);
-        return std::tuple(!p.broken, fits, p.manifest.version, -static_cast<int>(p.origin));
+    const auto rank = [this](const Plugin& p) {
+        return std::tuple(!p.broken, isWanted(p), p.manifest.version, -static_cast<int>(p.origin));
     };
     if (place && rank(*plugin) > rank(*place)) std::swap(place, plugin);
     if (!place) {
@@ -109,19 +106,66 @@ void PluginManager::adopt(std::unique_ptr<Plugin> plugin)
     shadowed_.push_back(std::move(plugin));
 }
 
-std::vector<std::string> PluginManager::resolve()
+bool PluginManager::isWanted(const Plugin& plugin) const
 {
-    std::set<std::string> before, after;
-    const auto note = [this](std::set<std::string>& usable) {
-        for (const auto& [id, plugin] : plugins_)
-            if (plugin->usable()) usable.insert(id);
+    const auto fits = [&](const std::optional<PluginSet>& set) {
+        return !set || set->admits(plugin.manifest.id, plugin.manifest.version);
     };
-    note(before);
-    resolvePlugins(plugins_, {options_.disabled, options_.only, options_.setName});
-    note(after);
+    return fits(options_.set) && fits(options_.projectSet);
+}
+
+std::vector<std::string> PluginManager::chooseCopies()
+{
+    const std::set<std::string> before = usableOnes();
+    std::map<std::string, const Plugin*> used;
+    for (const auto& [id, plugin] : plugins_) used.emplace(id, plugin.get());
+    std::vector<std::unique_ptr<Plugin>> copies = std::exchange(shadowed_, {});
+    for (auto& copy : copies) {
+        const auto place = plugins_.find(copy->manifest.id);
+        if (place == plugins_.end() || place->second->library) {
+            shadowed_.push_back(std::move(copy));
+            continue;
+        }
+        if (copy->state == PluginState::Shadowed) {
+            copy->state = PluginState::Valid;
+            copy->reason.clear();
+        }
+        adopt(std::move(copy));
+    }
+    std::vector<std::string> changed = resolve(before);
+    for (const auto& [id, plugin] : used)
+        if (plugins_.find(id)->second.get() != plugin && std::find(changed.begin(), changed.end(), id) == changed.end())
+            changed.push_back(id);
+    return changed;
+}
+
+std::vector<std::string> PluginManager::useSet(std::optional<PluginSet> set)
+{
+    options_.set = std::move(set);
+    return chooseCopies();
+}
+
+std::vector<std::string> PluginManager::setProjectSet(std::optional<PluginSet> set)
+{
+    options_.projectSet = std::move(set);
+    return chooseCopies();
+}
+
+std::set<std::string> PluginManager::usableOnes() const
+{
+    std::set<std::string> usable;
+    for (const auto& [id, plugin] : plugins_)
+        if (plugin->usable()) usable.insert(id);
+    return usable;
+}
+
+std::vector<std::string> PluginManager::resolve(const std::set<std::string>& usableBefore)
+{
+    resolvePlugins(plugins_, {options_.disabled, options_.set});
     buildIndex();
+    const std::set<std::string> after = usableOnes();
     std::vector<std::string> changed;
-    std::set_symmetric_difference(before.begin(), before.end(), after.begin(), after.end(),
+    std::set_symmetric_difference(usableBefore.begin(), usableBefore.end(), after.begin(), after.end(),
                                   std::back_inserter(changed));
     return changed;
 }
@@ -166,7 +210,7 @@ std::vector<std::string> PluginManager::setEnabled(const std::set<std::string>& 
             continue;
         }
         options_.disabled.erase(id);
-        if (options_.only) options_.only->insert(id);
+        if (options_.set) options_.set->letIn(id);
     }
     return resolve();
 }

@@ -5,6 +5,7 @@
 #include "guarded.hpp"
 #include "plugin.hpp"
 #include "plugin_resolver.hpp"
+#include "plugin_set.hpp"
 #include "settings_store.hpp"
 
 #include <jet/plugins.hpp>
@@ -24,9 +25,8 @@ struct PluginOptions {
     std::vector<std::filesystem::path> searchPath;  ///< earlier folders win where versions are equal
     std::set<std::string> without;                  ///< as if these were not installed
     std::set<std::string> disabled;                 ///< installed, switched off by the user
-    std::optional<std::set<std::string>> only;      ///< a plugin set; none: all
-    std::string setName;                            ///< of that set, for messages
-    std::map<std::string, VersionRange> wanted;     ///< of several copies, one that fits is used
+    std::optional<PluginSet> set;                   ///< use its plugins only; none: all
+    std::optional<PluginSet> projectSet;            ///< of several copies, one that fits it is used
     bool copyLibraries = false;                     ///< load from fresh paths, for rebuilding while it runs
     bool strictUnload = false;                      ///< unload() really unloads: for tests
     bool safeMode = false;                          ///< only what ships with the program
@@ -55,6 +55,12 @@ public:
     /// Switches plugins and, when on, lets them into the plugin set; takes effect at once. Answers the ids of all
     /// plugins that became usable or unusable by it. Storing the choice is the caller's business.
     std::vector<std::string> setEnabled(const std::set<std::string>& ids, bool enabled);
+    /// Uses the plugins of this set only, or all; takes effect at once. Answers as setEnabled() does.
+    std::vector<std::string> useSet(std::optional<PluginSet> set);
+    /// The ids of the installed plugins that the set holds, with what they require.
+    std::set<std::string> selectedBy(const PluginSet& set) const { return selectedPlugins(set, plugins_); }
+    /// What the open project asks of versions: of several copies of a plugin that is not loaded, one that fits is used.
+    std::vector<std::string> setProjectSet(std::optional<PluginSet> set);
     const PluginOptions& options() const { return options_; }
 
     /// By id; shadowed copies follow.
@@ -72,8 +78,10 @@ public:
     SettingsStore& settingsStore() { return settingsStore_; }
     /// Told of each call into a plugin that does not return for long, while it goes on. [a thread of its own]
     void setHangHandler(std::function<void(const PluginProblem&)> handler) { guard_.onHang = std::move(handler); }
-    /// As if these were not installed. Before anything was loaded.
-    void leaveOut(const std::vector<std::string>& ids);
+    /// Is it in the middle of a call, on any thread?
+    bool isInCall(std::string_view id) const;
+    /// As if these were not installed, in safe mode if need be. Before anything was loaded.
+    void leaveOut(const std::vector<std::string>& ids, bool safeMode = false);
     /// Takes the plugin as it is now in its folder. What runs goes on if that does not work; the error says why. Shared
     /// objects (effects, formats, engines) keep their addresses; tools and panels must be made again, and EffectStates
     /// dropped, by `beforeSwap`, which is called when the new library is known to work. Not while a simulation runs.
@@ -116,9 +124,15 @@ private:
 
     std::vector<std::string> readFolder(const std::filesystem::path& folder, PluginOrigin origin);
     void adopt(std::unique_ptr<Plugin> plugin);
+    /// Chooses between the copies of each plugin anew; a copy that is loaded stays. Then resolves; answers also the ids
+    /// of plugins of which another copy is used.
+    std::vector<std::string> chooseCopies();
+    std::set<std::string> usableOnes() const;
+    bool isWanted(const Plugin& plugin) const;
     PluginOrigin originOf(const std::filesystem::path& folder) const;
     /// Decides states and providers anew. Answers the ids of the plugins whose usability changed.
-    std::vector<std::string> resolve();
+    std::vector<std::string> resolve() { return resolve(usableOnes()); }
+    std::vector<std::string> resolve(const std::set<std::string>& usableBefore);
     void buildIndex();
     /// Objects of plugins that provide their contribution no more are kept, but not handed out again.
     template <class T>

@@ -23,8 +23,15 @@ bool isInCall(const Plugin& plugin)
 
 }  // namespace
 
-void PluginManager::leaveOut(const std::vector<std::string>& ids)
+bool PluginManager::isInCall(std::string_view id) const
 {
+    const auto found = plugins_.find(id);
+    return found != plugins_.end() && host::isInCall(*found->second);
+}
+
+void PluginManager::leaveOut(const std::vector<std::string>& ids, bool safeMode)
+{
+    options_.safeMode = options_.safeMode || safeMode;
     options_.without.insert(ids.begin(), ids.end());
     plugins_.clear();
     shadowed_.clear();
@@ -62,7 +69,7 @@ Result<void> PluginManager::reload(std::string_view id, const std::function<void
     if (plugin.state == PluginState::Disabled)
         return Error("the plugin " + plugin.title() + " is " + std::string(stateName(plugin.state)) + ": " +
                      plugin.reason);
-    if (isInCall(plugin))
+    if (host::isInCall(plugin))
         return Error("the plugin " + plugin.title() + " is in the middle of a call; reload it when that has returned");
     const auto keeps = [&](const std::string& reason) {
         return Error("the plugin " + plugin.title() + " was not reloaded" +
@@ -167,7 +174,7 @@ Result<void> PluginManager::unload(std::string_view id)
     const auto found = plugins_.find(id);
     if (found == plugins_.end() || !found->second->library) return {};
     Plugin& plugin = *found->second;
-    if (isInCall(plugin)) return Error("the plugin " + plugin.title() + " is in the middle of a call");
+    if (host::isInCall(plugin)) return Error("the plugin " + plugin.title() + " is in the middle of a call");
     plugin.registrations = {};
     renewObjects(plugin);
     const auto leaves = [&](const std::string& what) {

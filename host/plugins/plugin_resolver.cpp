@@ -12,7 +12,10 @@ namespace {
 
 class Resolver {
 public:
-    Resolver(PluginTable& plugins, const PluginChoice& choice) : plugins_(plugins), choice_(choice) {}
+    Resolver(PluginTable& plugins, const PluginChoice& choice) : plugins_(plugins), choice_(choice)
+    {
+        if (choice.set) selected_ = selectedPlugins(*choice.set, plugins);
+    }
 
     void run()
     {
@@ -53,15 +56,29 @@ private:
         if (choice_.disabled.contains(id)) {
             plugin.state = PluginState::Disabled;
             plugin.reason = "switched off; 'jet plugins enable " + id + "' switches it on";
-        } else if (choice_.only && !choice_.only->contains(id)) {
-            plugin.state = PluginState::Disabled;
-            plugin.leftOut = true;
-            plugin.reason = "not in the chosen plugin set" +
-                            (choice_.setName.empty() ? std::string() : " '" + choice_.setName + "'") +
-                            "; add it to the set, or start JET without --plugins";
+        } else if (choice_.set && !selected_.contains(id)) {
+            leaveOut(plugin,
+                     "not in " + setTitle() + "; add it to the set, or choose another one ('jet plugins sets')");
+        } else if (choice_.set && !choice_.set->admits(id, plugin.manifest.version)) {
+            leaveOut(plugin, setTitle() + " wants " + id + " " + choice_.set->wantedOf(id) + ", and version " +
+                                 plugin.manifest.version.text() +
+                                 " is installed; install one that fits, or choose "
+                                 "another set");
         } else if (const auto built = checkBuild(plugin.manifest); !built) {
             refuse(plugin, {PluginState::Faulted, built.error().message});
         }
+    }
+
+    static void leaveOut(Plugin& plugin, std::string reason)
+    {
+        plugin.state = PluginState::Disabled;
+        plugin.leftOut = true;
+        plugin.reason = std::move(reason);
+    }
+
+    std::string setTitle() const
+    {
+        return "the chosen plugin set" + (choice_.set->name.empty() ? std::string() : " '" + choice_.set->name + "'");
     }
 
     static std::string path(const std::vector<const Plugin*>& chain, const std::string& last)
@@ -191,9 +208,21 @@ private:
 
     PluginTable& plugins_;
     const PluginChoice& choice_;
+    std::set<std::string> selected_;  // of the set, if there is one
 };
 
 }  // namespace
+
+std::set<std::string> selectedPlugins(const PluginSet& set, const PluginTable& plugins)
+{
+    std::set<std::string> all;
+    for (const auto& [id, plugin] : plugins) all.insert(id);
+    return set.select(all, [&](const std::string& id) {
+        std::vector<std::string> needs;
+        for (const Dependency& need : plugins.find(id)->second->manifest.requires_) needs.push_back(need.id);
+        return needs;
+    });
+}
 
 void resolvePlugins(PluginTable& plugins, const PluginChoice& choice) { Resolver(plugins, choice).run(); }
 

@@ -14,6 +14,7 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <unistd.h>
@@ -56,27 +57,67 @@ private:
 
 }  // namespace
 
-int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& launch)
+namespace {
+
+using namespace jet::host;
+
+/// What the user answered to the crash dialog about work that was not saved.
+struct CrashAnswer {
+    bool asked = false;  // so that nothing asks again
+    std::filesystem::path recover;
+};
+
+/// Asks what shall become of plugins and work after a crash. None: the user wants to quit.
+std::optional<CrashAnswer> askAfterCrash(WindowLaunch& launch)
 {
+    if (launch.crashes.empty()) return CrashAnswer{};
+    const auto file = launch.project.empty() ? jet::Result<std::filesystem::path>(launch.project)
+                                             : jet::findProjectFile(launch.project);
+    const auto work = file ? ProjectController::unsavedWork(*file) : std::vector<jet::JournalInfo>();
+    CrashDialog dialog(launch.crashes, work);
+    if (dialog.exec() == QDialog::Rejected) return std::nullopt;
+    launch.safeMode = launch.safeMode || dialog.safeMode();
+    if (launch.goOn) launch.goOn(dialog.leftOut(), dialog.safeMode());
+    CrashAnswer answer{!work.empty(), {}};
+    const RecoveryChoice choice = dialog.recovery();
+    if (choice.kind == RecoveryChoice::Kind::Recover) answer.recover = work.at(choice.index).file;
+    // What cannot be removed is offered again at the next start.
+    if (choice.kind == RecoveryChoice::Kind::Discard) (void)jet::Journal::remove(work.at(choice.index).file);
+    return answer;
+}
+
+/// The project of the start: recovered, opened, or a new one.
+void openFirst(MainWindow& window, const WindowLaunch& launch, const CrashAnswer& answer)
+{
+    ProjectController& projects = window.projects();
+    if (!answer.recover.empty() && projects.recover(answer.recover)) return;
+    const auto& project = launch.project;
+    if (!project.empty() && (answer.asked ? projects.openAsSaved(project) : projects.open(project))) return;
+    projects.create();
+}
+
+}  // namespace
+
+int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& given)
+{
+    WindowLaunch launch = given;
     jet::host::GuardedApplication application(argc, argv, launch.runtime);
     std::setlocale(LC_NUMERIC, "C");  // QApplication sets the user's: numbers in files and scripts have a point
     QApplication::setApplicationName("JET");
     QApplication::setDesktopFileName("jet");
     jet::host::applyTheme(application);
-    if (!launch.crashes.empty()) {
-        jet::host::CrashDialog dialog(launch.crashes);
-        if (dialog.exec() == QDialog::Rejected) return 0;
-        if (launch.goOnWithout) launch.goOnWithout(dialog.leftOut());
-    }
+    const auto answer = askAfterCrash(launch);
+    if (!answer) return 0;
     jet::host::MainWindow window(launch);
     application.setMessageHandler([&window](const std::string& message) { window.showMessage(message); });
     window.restoreSettings();
-    if (launch.project.empty() || !window.projects().open(launch.project)) window.projects().create();
+    openFirst(window, launch, *answer);
     FirstFrame firstFrame;
     if (qEnvironmentVariableIsSet("JET_TRACE_FIRST_FRAME")) application.installEventFilter(&firstFrame);
     window.show();
     // What a crash left of other projects is offered once the window is there; opening one offers its own.
-    if (launch.project.empty()) QTimer::singleShot(0, &window, [&window] { window.projects().offerRecovery(); });
+    if (launch.project.empty() && !answer->asked)
+        QTimer::singleShot(0, &window, [&window] { window.projects().offerRecovery(); });
     const int code = QApplication::exec();
     application.setMessageHandler({});
     return code;

@@ -29,12 +29,16 @@ struct WindowLaunch {
         useProjectPlugins = {};
     /// Null: plugins are not guarded in the window and cannot be reloaded, as in tests.
     PluginRuntime* runtime = nullptr;
-    /// Runs that ended inside plugins, and what to do when the user has chosen which ones to go on without. The catalog
-    /// is used only after that.
+    /// Runs that ended inside plugins, and what to do when the user has chosen which ones to go on without, or to go on
+    /// with the shipped ones only. The catalog is used only after that.
     std::vector<CrashNote> crashes = {};
-    std::function<void(const std::vector<std::string>& leftOut)> goOnWithout = {};
+    std::function<void(const std::vector<std::string>& leftOut, bool safeMode)> goOn = {};
     /// Folders whose plugins are reloaded when they are rebuilt.
     std::vector<std::filesystem::path> watch = {};
+    /// Projects open only with exactly the plugins they were saved with.
+    bool frozen = false;
+    /// Gives `plugins` the way to reload one; called with an empty one when the window goes.
+    std::function<void(std::function<jet::Result<jet::PluginChange>(const std::string& plugin)>)> setReloader = {};
 };
 
 }  // namespace jet::host

@@ -47,8 +47,8 @@ QString number(double value, int decimals) { return QString::number(value, 'f', 
 MainWindow::MainWindow(const WindowLaunch& launch)
     : catalog_(launch.catalog), noPlugins_(launch.catalog), plugins_(launch.plugins ? *launch.plugins : noPlugins_),
       events_(launch.events), safeMode_(launch.safeMode), pluginProblems_(launch.pluginProblems),
-      runtime_(launch.runtime), pump_(launch.events), simulation_(launch.events), messages_(new MessageBar(nullptr)),
-      documents_(new Documents(*this, toolOptions_, nullptr)),
+      runtime_(launch.runtime), setReloader_(launch.setReloader), pump_(launch.events), simulation_(launch.events),
+      messages_(new MessageBar(nullptr)), documents_(new Documents(*this, toolOptions_, nullptr)),
       actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
       projects_(*this, *documents_, this), pluginController_(*this, projects_, *messages_, this),
       formats_(*this, *documents_, this), edits_(*this, *documents_, this), commands_(*this, *documents_, this),
@@ -56,6 +56,8 @@ MainWindow::MainWindow(const WindowLaunch& launch)
       reloader_(*this, *documents_, tools_, docks_, launch.runtime, this), views_(*documents_, docks_, this)
 {
     pluginController_.setUseProjectPlugins(launch.useProjectPlugins);
+    pluginController_.setFrozen(launch.frozen);
+    if (setReloader_) setReloader_([this](const std::string& plugin) { return reloader_.request(plugin); });
     setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
@@ -72,6 +74,7 @@ MainWindow::MainWindow(const WindowLaunch& launch)
 
 MainWindow::~MainWindow()
 {
+    if (setReloader_) setReloader_({});
     simulation_.stop();
     subscriptions_.clear();
     projects_.close();  // views and script tabs refer to scenes

@@ -99,6 +99,7 @@ private:
     bool safeMode_;
     std::function<std::vector<std::string>()> pluginProblems_;
     PluginRuntime* runtime_;
+    std::function<void(std::function<Result<PluginChange>(const std::string&)>)> setReloader_;
     std::set<std::string> shownProblems_;
     EventPump pump_;
     ToolOptions toolOptions_;

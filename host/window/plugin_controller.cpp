@@ -20,6 +20,7 @@ PluginController::PluginController(Editor& editor, ProjectController& projects, 
       ask_([this](const std::string& question) { return askTrust(question); })
 {
     projects_.setBeforeOpen([this](const std::filesystem::path& project) { beforeOpen(project); });
+    projects_.setMayOpen([this](const Project& project) { return mayOpen(project); });
     projects_.setTellMissing([this] { return tellMissing(); });
     subscription_ = editor_.events().subscribe<PluginsChanged>(
         nullptr, [this](const PluginsChanged& change) { pluginsChanged(change); });
@@ -75,10 +76,26 @@ std::set<PluginController::Wanted> PluginController::missingTypes() const
     return missing;
 }
 
+bool PluginController::mayOpen(const Project& project)
+{
+    if (!frozen_) return true;
+    const auto differences = editor_.plugins().differences(project);
+    if (differences.empty()) return true;
+    std::string text =
+        tr("The project is not opened, because its plugins are not those it was saved with:").toStdString();
+    for (const PluginDifference& one : differences) text += "\n" + one.id + ": " + one.reason + "; " + one.remedy + ".";
+    editor_.showMessage(text);
+    return false;
+}
+
 bool PluginController::tellMissing()
 {
     missing_ = missingTypes();
+    const auto differences = editor_.plugins().differences(editor_.project());
+    showDifferences(differences);
     std::set<std::string> told;
+    for (const PluginDifference& one : differences) told.insert(one.id);
+    const std::size_t shown = told.size();
     for (const auto& [kind, id] : missing_) {
         const Provider provider = editor_.plugins().whoProvides(kind, id);
         const std::string subject = provider.plugin.empty() ? id : provider.plugin;
@@ -86,7 +103,31 @@ bool PluginController::tellMissing()
         const QString kept = tr("%1 What it wrote is kept.").arg(textOf(provider.sentence));
         messages_.add(kept, actionsFor(provider));
     }
-    return !told.empty();
+    return shown > 0 || !told.empty();
+}
+
+void PluginController::showDifferences(const std::vector<PluginDifference>& differences)
+{
+    const std::filesystem::path file = editor_.project().file();
+    const bool again = answeredFor_ == file;
+    if (!again) answered_.clear();
+    answeredFor_ = file;
+    bool isNew = false, versionsOnly = true;
+    for (const PluginDifference& one : differences) {
+        const std::string text = one.id + ": " + one.reason + "; " + one.remedy;
+        editor_.print({OutputLine::Kind::Warning, Error(text, {file.string(), 0, 0}).text(), {}, 0});
+        isNew = answered_.insert(one.id + one.wanted + one.here + one.reason).second || isNew;
+        versionsOnly = versionsOnly && one.kind == PluginDifference::Kind::OtherVersion;
+    }
+    if (dialog_ && again) return dialog_->refresh();  // a plugin came back, and the project was read again
+    if (dialog_) dialog_->close();                    // of the project before
+    if (!isNew || (versionsOnly && !tellsOfVersions())) return;
+    const auto compare = [this] { return editor_.plugins().differences(editor_.project()); };
+    dialog_ = new PluginDiffDialog(editor_, textOf(editor_.project().name()), compare, window_);
+    dialog_->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog_, &QDialog::finished, this, [this] { dialog_ = nullptr; });
+    // Later: at the start the window itself is not shown yet.
+    QMetaObject::invokeMethod(dialog_, &QDialog::open, Qt::QueuedConnection);
 }
 
 // --- plugins that change while the editor runs

@@ -4,9 +4,12 @@
 
 #include "window/actions.hpp"
 #include "window/message_bar.hpp"
+#include "window/plugin_diff_dialog.hpp"
 #include "window/project_controller.hpp"
 
 #include <jet/plugins.hpp>
+
+#include <QPointer>
 
 #include <filesystem>
 #include <functional>
@@ -29,6 +32,10 @@ public:
     std::vector<ActionSpec> actions();
     void showMissing(ContributionKind kind, std::string_view id);
     void setUseProjectPlugins(UseProjectPlugins use) { useProjectPlugins_ = std::move(use); }
+    /// Projects open only with exactly the plugins they were saved with.
+    void setFrozen(bool frozen) { frozen_ = frozen; }
+    /// What the open project wants and does not get, while it is shown; null otherwise.
+    PluginDiffDialog* differencesShown() const { return dialog_; }
     /// Replaces the question whether to trust a project's plugins, for tests.
     void setQuestion(std::function<bool(const std::string&)> ask) { ask_ = std::move(ask); }
 
@@ -40,8 +47,12 @@ private:
     using Wanted = std::pair<ContributionKind, std::string>;
 
     void beforeOpen(const std::filesystem::path& project);
-    /// A message a plugin that the project needs and that is not usable. False when there is none.
+    /// Shows which plugins are not as the project wants them; what no plugin is known for is a message each. False when
+    /// all is well.
     bool tellMissing();
+    /// False: the project must not open with these plugins (frozen); says why.
+    bool mayOpen(const Project& project);
+    void showDifferences(const std::vector<PluginDifference>& differences);
     std::set<Wanted> missingTypes() const;
     void enable(const std::string& plugin);
     void pluginsChanged(const PluginsChanged& change);
@@ -55,7 +66,11 @@ private:
     QWidget* window_;
     UseProjectPlugins useProjectPlugins_;
     std::function<bool(const std::string&)> ask_;
+    bool frozen_ = false;
     std::set<Wanted> missing_;  // when the project was opened
+    QPointer<PluginDiffDialog> dialog_;
+    std::filesystem::path answeredFor_;  // the project that answered_ is about
+    std::set<std::string> answered_;     // differences that were shown: reading the project again shows new ones only
     Subscription subscription_;
 };
 

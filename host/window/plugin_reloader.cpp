@@ -51,10 +51,35 @@ void PluginReloader::reload(const std::string& plugin)
 void PluginReloader::reloadWaiting()
 {
     if (editor_.simulation().state() != SimulationCenter::State::Stopped) return;
-    for (const std::string& plugin : std::exchange(waiting_, {})) swap(plugin);
+    for (const std::string& plugin : std::exchange(waiting_, {})) swapAndTell(plugin);
 }
 
-void PluginReloader::swap(const std::string& plugin)
+Result<PluginChange> PluginReloader::request(const std::string& plugin)
+{
+    if (!plugins_) return Error(tr("there are no plugins to reload here").toStdString());
+    PluginChange change{{plugin}, false, {}};
+    const QString title = QString::fromStdString(plugins_->titleOf(plugin));
+    if (editor_.simulation().state() != SimulationCenter::State::Stopped) {
+        waiting_.insert(plugin);
+        change.message = tr("%1 is reloaded when the play stops.").arg(title).toStdString();
+    } else if (plugins_->isInCall(plugin)) {
+        waiting_.insert(plugin);
+        QMetaObject::invokeMethod(this, &PluginReloader::reloadWaiting, Qt::QueuedConnection);
+        change.message = tr("%1 is reloaded as soon as it is done with this.").arg(title).toStdString();
+    } else {
+        if (const auto swapped = swap(plugin); !swapped) return swapped.error();
+        change.message = tr("%1 was reloaded.").arg(QString::fromStdString(plugins_->titleOf(plugin))).toStdString();
+    }
+    return change;
+}
+
+void PluginReloader::swapAndTell(const std::string& plugin)
+{
+    if (const auto swapped = swap(plugin); !swapped) return editor_.showMessage(swapped.error().message);
+    editor_.showStatus(tr("%1 was reloaded").arg(QString::fromStdString(plugins_->titleOf(plugin))).toStdString());
+}
+
+Result<void> PluginReloader::swap(const std::string& plugin)
 {
     const auto letGo = [&] {
         for (SceneView* view : documents_.views()) {
@@ -66,12 +91,12 @@ void PluginReloader::swap(const std::string& plugin)
         editor_.events().dispatchQueued();
         QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
     };
-    const Result<void> swapped = plugins_->reload(plugin, letGo);
-    if (!swapped) return editor_.showMessage(swapped.error().message);
+    if (const auto swapped = plugins_->reload(plugin, letGo); !swapped) return swapped;
     tools_.rebuild();
     docks_.refillContent();
     for (SceneView* view : documents_.views()) view->invalidate();
-    editor_.showStatus(tr("%1 was reloaded").arg(QString::fromStdString(plugins_->titleOf(plugin))).toStdString());
+    editor_.events().post(&editor_, PluginsChanged{{plugin}});
+    return {};
 }
 
 }  // namespace jet::host

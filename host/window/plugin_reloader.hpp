@@ -9,6 +9,7 @@
 #include "window/tool_controller.hpp"
 
 #include <jet/events.hpp>
+#include <jet/plugins.hpp>
 
 #include <memory>
 #include <set>
@@ -24,8 +25,11 @@ public:
 
     /// Reloads plugins of these folders as they are rebuilt.
     void watch(const std::vector<std::filesystem::path>& folders);
-    /// Now, or when the play stops.
+    /// Now, or when the play stops; says so in the window.
     void reload(const std::string& plugin);
+    /// The same for who asks through the PluginsCenter and tells the user itself. A plugin that asks for its own
+    /// reloading is reloaded when its call has returned.
+    Result<PluginChange> request(const std::string& plugin);
     /// All whose libraries are in use.
     void reloadAll();
 
@@ -34,7 +38,8 @@ public:
 private:
     void folderChanged(const QString& folder);
     void reloadWaiting();
-    void swap(const std::string& plugin);
+    Result<void> swap(const std::string& plugin);
+    void swapAndTell(const std::string& plugin);
 
     Editor& editor_;
     Documents& documents_;

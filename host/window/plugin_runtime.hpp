@@ -28,6 +28,8 @@ public:
     /// Events are being handled: who waits for a plugin waits for the user, too (a dialog).
     virtual void showLife() = 0;
     virtual bool isUsable(std::string_view plugin) const = 0;
+    /// Is it in the middle of a call?
+    virtual bool isInCall(std::string_view plugin) const = 0;
     /// The plugin this address (of code, of a table of virtual functions) lies in; empty: none.
     virtual std::string ownerOf(const void* address) const = 0;
     /// Something of the plugin threw where no guard was.

@@ -110,6 +110,7 @@ bool ProjectController::load(const std::filesystem::path& path)
         editor_.showMessage(loaded.error().text());
         return false;
     }
+    if (mayOpen_ && !mayOpen_(**loaded)) return false;
     install(std::move(*loaded));
     remember(project_->file());
     tellNotes();
@@ -127,14 +128,20 @@ void ProjectController::tellNotes()
 
 // --- after a crash
 
-bool ProjectController::offerRecovery(const std::filesystem::path& only)
+std::vector<JournalInfo> ProjectController::unsavedWork(const std::filesystem::path& only)
 {
     std::error_code ignored;
+    std::vector<JournalInfo> journals = findJournals();
+    std::erase_if(journals, [&](const JournalInfo& info) {
+        return info.inUse || (!only.empty() && !std::filesystem::equivalent(info.project, only, ignored));
+    });
+    return journals;
+}
+
+bool ProjectController::offerRecovery(const std::filesystem::path& only)
+{
     for (;;) {
-        std::vector<JournalInfo> journals = findJournals();
-        std::erase_if(journals, [&](const JournalInfo& info) {
-            return info.inUse || (!only.empty() && !std::filesystem::equivalent(info.project, only, ignored));
-        });
+        const std::vector<JournalInfo> journals = unsavedWork(only);
         if (journals.empty()) return false;
         const RecoveryChoice choice = recoveryQuestion_(journals);
         if (choice.kind == RecoveryChoice::Kind::Later) return false;
@@ -157,6 +164,7 @@ bool ProjectController::recover(const std::filesystem::path& journal)
         editor_.showMessage(recovery.error().text());
         return false;
     }
+    if (mayOpen_ && !mayOpen_(*recovery->project)) return false;
     install(std::move(recovery->project));
     if (!project_->file().empty()) remember(project_->file());
     tellNotes();

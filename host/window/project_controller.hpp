@@ -34,9 +34,13 @@ public:
     bool hasProject() const { return project_ != nullptr; }
     /// A new, untitled project.
     void create();
-    /// False, and the present project stays, when it cannot be read; the message bar says why. A packed project is
-    /// unpacked where the user wants it first.
+    /// False, and the present project stays, when it cannot be read; the message bar says why. Offers what a crash left
+    /// of it first. A packed project is unpacked where the user wants it first.
     bool open(const std::filesystem::path& path);
+    /// The same for who was asked about that already.
+    bool openAsSaved(const std::filesystem::path& path) { return load(path); }
+    /// What crashes left behind: of that project, or of all.
+    static std::vector<JournalInfo> unsavedWork(const std::filesystem::path& only = {});
     bool save();
     bool saveAs(const std::filesystem::path& folder);
     /// Packs the saved project into one file, *.jetz.
@@ -61,6 +65,8 @@ public:
     void setQuestion(std::function<Answer()> question) { question_ = std::move(question); }
     /// Called with the path before a project is read.
     void setBeforeOpen(std::function<void(const std::filesystem::path&)> before) { beforeOpen_ = std::move(before); }
+    /// Asked before a project that was read takes the place of the present one; false keeps the present one.
+    void setMayOpen(std::function<bool(const Project&)> may) { mayOpen_ = std::move(may); }
     /// Tells which plugins the opened project misses; false when it misses none.
     void setTellMissing(std::function<bool()> tell) { tellMissing_ = std::move(tell); }
     void setRecoveryQuestion(std::function<RecoveryChoice(const std::vector<JournalInfo>&)> question)
@@ -112,6 +118,7 @@ private:
     QStringList recent_;
     std::function<Answer()> question_;
     std::function<void(const std::filesystem::path&)> beforeOpen_;
+    std::function<bool(const Project&)> mayOpen_;
     std::function<bool()> tellMissing_;
     std::function<RecoveryChoice(const std::vector<JournalInfo>&)> recoveryQuestion_;
     std::function<Conflict(const QStringList&)> conflictQuestion_;

@@ -12,6 +12,26 @@
 
 namespace jet::host {
 
+void fillJournalList(QTreeWidget& list, const std::vector<JournalInfo>& journals)
+{
+    list.setHeaderLabels({RecoveryDialog::tr("Project"), RecoveryDialog::tr("Changes"),
+                          RecoveryDialog::tr("Last change"), RecoveryDialog::tr("File")});
+    list.setRootIsDecorated(false);
+    list.setAllColumnsShowFocus(true);
+    for (const JournalInfo& info : journals) {
+        const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(info.lastChange.time_since_epoch());
+        const QDateTime time = QDateTime::fromMSecsSinceEpoch(ms.count());
+        const QString file = info.project.empty()
+                                 ? RecoveryDialog::tr("never saved")
+                                 : QDir::toNativeSeparators(QString::fromStdString(info.project.string()));
+        auto* row = new QTreeWidgetItem(&list, {QString::fromStdString(info.name), QString::number(info.changes),
+                                                QLocale().toString(time, QLocale::ShortFormat), file});
+        row->setToolTip(3, file);
+    }
+    for (int column = 0; column < 3; ++column) list.resizeColumnToContents(column);
+    list.setCurrentItem(list.topLevelItem(0));
+}
+
 RecoveryDialog::RecoveryDialog(const std::vector<JournalInfo>& journals, QWidget* parent) : QDialog(parent)
 {
     setWindowTitle(tr("Recover unsaved changes"));
@@ -24,7 +44,7 @@ RecoveryDialog::RecoveryDialog(const std::vector<JournalInfo>& journals, QWidget
                             this);
     hint->setWordWrap(true);
     list_ = new QTreeWidget(this);
-    fill(*list_, journals);
+    fillJournalList(*list_, journals);
     auto* buttons = new QDialogButtonBox(this);
     const auto button = [&](const QString& text, QDialogButtonBox::ButtonRole role, RecoveryChoice::Kind kind) {
         QPushButton* made = buttons->addButton(text, role);
@@ -37,25 +57,6 @@ RecoveryDialog::RecoveryDialog(const std::vector<JournalInfo>& journals, QWidget
     auto* layout = new QVBoxLayout(this);
     for (QWidget* part : std::initializer_list<QWidget*>{heading, list_, hint, buttons}) layout->addWidget(part);
     resize(680, 300);
-}
-
-void RecoveryDialog::fill(QTreeWidget& list, const std::vector<JournalInfo>& journals)
-{
-    list.setHeaderLabels({tr("Project"), tr("Changes"), tr("Last change"), tr("File")});
-    list.setRootIsDecorated(false);
-    list.setAllColumnsShowFocus(true);
-    for (const JournalInfo& info : journals) {
-        const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(info.lastChange.time_since_epoch());
-        const QDateTime time = QDateTime::fromMSecsSinceEpoch(ms.count());
-        const QString file = info.project.empty()
-                                 ? tr("never saved")
-                                 : QDir::toNativeSeparators(QString::fromStdString(info.project.string()));
-        auto* row = new QTreeWidgetItem(&list, {QString::fromStdString(info.name), QString::number(info.changes),
-                                                QLocale().toString(time, QLocale::ShortFormat), file});
-        row->setToolTip(3, file);
-    }
-    for (int column = 0; column < 3; ++column) list.resizeColumnToContents(column);
-    list.setCurrentItem(list.topLevelItem(0));
 }
 
 void RecoveryDialog::finish(RecoveryChoice::Kind kind)

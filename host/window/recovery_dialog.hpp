@@ -11,6 +11,9 @@ class QTreeWidget;
 
 namespace jet::host {
 
+/// A row a journal: project, changes, time, file. The first is current.
+void fillJournalList(QTreeWidget& list, const std::vector<JournalInfo>& journals);
+
 /// What the user chose for one of the journals.
 struct RecoveryChoice {
     enum class Kind { Recover, Discard, Later };
@@ -26,7 +29,6 @@ public:
     RecoveryChoice choice() const { return choice_; }
 
 private:
-    void fill(QTreeWidget& list, const std::vector<JournalInfo>& journals);
     void finish(RecoveryChoice::Kind kind);
 
     QTreeWidget* list_;

@@ -28,6 +28,17 @@ Result<PluginChange> PluginsCenter::reload(std::string_view)
     return Error("this program cannot reload plugins; start it again");
 }
 
+std::vector<PluginSetInfo> PluginsCenter::sets() const { return {}; }
+Result<PluginChange> PluginsCenter::useSet(std::string_view)
+{
+    return Error("this program has no plugin sets; start it with '--plugins SET'");
+}
+Result<PluginSetInfo> PluginsCenter::saveSet(std::string_view)
+{
+    return Error("this program cannot save plugin sets; use 'jet plugins freeze'");
+}
+std::vector<PluginDifference> PluginsCenter::differences(const Project&) const { return {}; }
+
 Settings::~Settings() = default;
 
 namespace {

@@ -49,8 +49,21 @@ use_tool() {
     xdotool click 1; sleep 1
 }
 
+draw_box() {
+    xdotool windowmove --sync "$window" 0 0 windowsize --sync "$window" 1440 880 2>/dev/null
+    xdotool windowactivate --sync "$window"
+    sleep 1
+    xdotool mousemove 700 500 click 3; sleep 0.3; xdotool key Escape; sleep 0.3  # the scene has the focus
+    xdotool key m; sleep 0.5
+    xdotool mousemove 500 350 mousedown 1; sleep 0.2; xdotool mousemove 560 400; sleep 0.1; xdotool mousemove 650 450
+    sleep 0.2; xdotool mouseup 1; sleep 1
+}
+journals() { ls "$out/state/jet/journals" 2>/dev/null | wc -l; }
+
 start
 check "the editor starts" find_window "— JET"
+draw_box
+check "what is drawn is recorded" [ "$(journals)" -eq 1 ]
 use_tool
 check "the tool takes the editor down" ends
 wait "$editor"; code=$?
@@ -62,7 +75,8 @@ check "the next start asks" find_window "JET ended unexpectedly"
 shot 1-question
 xdotool windowactivate --sync "$window"; sleep 0.5
 xdotool key Return
-check "and goes on" find_window "— JET"
+check "and goes on with the work that was not saved" find_window "Untitled\* — JET"
+check "which it does not ask for again" [ -z "$(xdotool search --onlyvisible --pid "$editor" --name "Recover unsaved")" ]
 use_tool
 shot 2-without
 check "without the plugin: the same key and click do no harm" kill -0 "$editor"
@@ -70,6 +84,7 @@ xdotool key ctrl+q
 ends || { xdotool key --clearmodifiers alt+d; ends || kill "$editor"; }
 wait "$editor"; code=$?
 check "it ends in order (exit code $code)" [ "$code" -eq 0 ]
+check "no journal is left" [ "$(journals)" -eq 0 ]
 check "no ledger is left" [ -z "$(ls "$out/state/jet/ledger")" ]
 
 start

@@ -1,5 +1,6 @@
 // Plugins in the running window: rebuilt ones are swapped in, failing ones are taken out, and the editor goes on.
 #include "host/app/managed_plugins.hpp"
+#include "host/plugins/plugin_control.hpp"
 #include "window/crash_dialog.hpp"
 #include "window/guarded_application.hpp"
 #include "window/main_window.hpp"
@@ -7,10 +8,15 @@
 #include "../host/plugins/plugin_folder.hpp"
 
 #include <QCheckBox>
+#include <QPointer>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolButton>
+#include <QTreeView>
+#include <QTreeWidget>
 
 #include <gmock/gmock.h>
 
@@ -37,6 +43,7 @@ public:
         if (control) control->showLife();
     }
     bool isUsable(std::string_view plugin) const override { return control && control->isUsable(plugin); }
+    bool isInCall(std::string_view plugin) const override { return control && control->isInCall(plugin); }
     std::string ownerOf(const void* address) const override { return control ? control->ownerOf(address) : ""; }
     void blame(std::string_view plugin, std::exception_ptr problem) override { control->blame(plugin, problem); }
     std::filesystem::path folderOf(std::string_view plugin) const override { return control->folderOf(plugin); }
@@ -60,8 +67,8 @@ protected:
         control = nullptr;
     }
 
-    /// The window with the plugins of the folder and the shipped tools, watching the folder.
-    void start()
+    /// The window with the plugins of the folder and the shipped tools, watching the folder unless told otherwise.
+    void start(bool watching = true)
     {
         PluginOptions options;
         options.searchPath = {folder.path(), builtInPluginFolder()};
@@ -74,7 +81,10 @@ protected:
         launch_ = std::make_unique<WindowLaunch>(WindowLaunch{*manager_, events_, {}, false, {}});
         launch_->runtime = control;
         launch_->pluginProblems = [this] { return manager_->problems(); };
-        launch_->watch = {folder.path()};
+        if (watching) launch_->watch = {folder.path()};
+        center_ = std::make_unique<PluginControl>(*manager_, events_);
+        launch_->plugins = center_.get();
+        launch_->setReloader = [this](auto reload) { center_->setReloader(std::move(reload)); };
         window_ = std::make_unique<MainWindow>(*launch_);
         window_->projects().setQuestion([] { return ProjectController::Answer::Discard; });
         window_->projects().setRecoveryQuestion([](const auto&) { return RecoveryChoice{}; });
@@ -113,6 +123,8 @@ protected:
     }
     bool becomes(const std::function<bool()>& condition) const { return QTest::qWaitFor(condition, 5000); }
     MainWindow& window() { return *window_; }
+    PluginControl& center() { return *center_; }
+    EventsCenter& events() { return events_; }
     SceneView& view() { return *window_->documents().currentView(); }
     Scene& scene() { return *window_->activeScene(); }
     void drawBox()
@@ -131,6 +143,7 @@ private:
     EventsCenter events_;
     std::unique_ptr<PluginManager> manager_;
     std::unique_ptr<ManagedPlugins> plugins_;
+    std::unique_ptr<PluginControl> center_;
     std::unique_ptr<WindowLaunch> launch_;
     std::unique_ptr<MainWindow> window_;
 };
@@ -196,6 +209,100 @@ TEST_F(PluginsInTheWindow, APluginThatComesLaterIsTakenIn)
     EXPECT_EQ(window().activeTool(), "bench");
 }
 
+// --- reloading by hand
+
+TEST_F(PluginsInTheWindow, ReloadingByHandKeepsSceneUndoHistoryAndTheToolAndTellsOfTheChange)
+{
+    copyFixture(kBench);
+    start(false);
+    window().setActiveTool("bench");
+    drawBox();
+    const auto hash = scene().hash();
+    const Tool* before = view().tool()->tool();
+    std::vector<std::string> told;
+    const auto listener = events().subscribe<PluginsChanged>(nullptr, [&](const PluginsChanged& change) {
+        told.insert(told.end(), change.plugins.begin(), change.plugins.end());
+    });
+    rebuild(kBench, "1.1.0");
+    const auto change = center().reload(kBench);
+    ASSERT_TRUE(change) << change.error().text();
+    EXPECT_THAT(change->message, HasSubstr("org.jet.test.bench 1.1.0) was reloaded."));
+    EXPECT_EQ(versionOf(kBench), "1.1.0");
+    QApplication::processEvents();
+    EXPECT_THAT(told, ElementsAre(kBench));
+    EXPECT_EQ(window().activeTool(), "bench");
+    EXPECT_NE(view().tool()->tool(), before) << "another tool object";
+    EXPECT_EQ(scene().hash(), hash);
+    EXPECT_EQ(scene().undoRedo().undoLabel(), "Draw");
+    scene().undoRedo().undo();
+    scene().undoRedo().redo();
+    EXPECT_EQ(scene().hash(), hash);
+    EXPECT_TRUE(problems.empty());
+}
+
+TEST_F(PluginsInTheWindow, ReloadingByHandKeepsTheOptionsOfTools)
+{
+    start(false);
+    window().setActiveTool("rectangle");
+    window().setToolOption("color", Color{1, 2, 3, 255});
+    ASSERT_TRUE(center().reload("org.jet.tool.rectangle"));
+    QApplication::processEvents();
+    EXPECT_EQ(window().activeTool(), "rectangle");
+    EXPECT_EQ(view().tool()->options().find("color")->as<Color>(), (Color{1, 2, 3, 255}));
+}
+
+TEST_F(PluginsInTheWindow, ReloadingByHandIsRefusedWithTheReasonAndTheOldPluginGoesOn)
+{
+    copyFixture(kBench);
+    start(false);
+    window().setActiveTool("bench");
+    std::ofstream(folder.path() / kBench / "plugin.json") << "{ broken";
+    const auto change = center().reload(kBench);
+    ASSERT_FALSE(change);
+    EXPECT_THAT(change.error().text(), HasSubstr("was not reloaded, what was loaded before goes on"));
+    EXPECT_THAT(change.error().text(), HasSubstr("plugin.json:1:3: error"));
+    EXPECT_NE(view().tool()->tool(), nullptr);
+    EXPECT_THAT(center().reload("org.acme.nothing").error().message,
+                HasSubstr("there is no plugin 'org.acme.nothing'"));
+}
+
+TEST_F(PluginsInTheWindow, WhileAGamePlaysReloadingByHandWaitsForItsEnd)
+{
+    copyFixture(kBench);
+    start(false);
+    window().setActiveTool("bench");
+    drawBox();
+    window().actionTable().find("play.play")->trigger();
+    ASSERT_NE(window().simulation().state(), SimulationCenter::State::Stopped);
+    rebuild(kBench, "1.1.0");
+    const auto change = center().reload(kBench);
+    ASSERT_TRUE(change);
+    EXPECT_THAT(change->message, HasSubstr("is reloaded when the play stops."));
+    EXPECT_EQ(versionOf(kBench), "1.0.0");
+    window().simulation().stop();
+    EXPECT_TRUE(becomes([&] { return versionOf(kBench) == "1.1.0"; }));
+}
+
+TEST_F(PluginsInTheWindow, ThePluginsPanelReloadsItself)
+{
+    start(false);
+    auto* dock = window().findChild<QDockWidget*>("panel:plugin-manager");
+    ASSERT_NE(dock, nullptr);
+    dock->show();
+    dock->raise();
+    ASSERT_TRUE(becomes([&] { return dock->findChild<QTreeView*>("pluginTable") != nullptr; }));
+    auto* table = dock->findChild<QTreeView*>("pluginTable");
+    const QPointer<QTreeView> before = table;
+    for (int row = 0; row < table->model()->rowCount(); ++row)
+        if (table->model()->index(row, 0).data().toString() == "Plugins panel")
+            table->setCurrentIndex(table->model()->index(row, 0));
+    auto* button = dock->findChild<QToolButton*>("pluginReload");
+    ASSERT_TRUE(button->isEnabled());
+    QTest::mouseClick(button, Qt::LeftButton);  // in the middle of a call into the plugin that is to go
+    EXPECT_TRUE(becomes([&] { return before.isNull() && dock->findChild<QTreeView*>("pluginTable") != nullptr; }));
+    EXPECT_TRUE(problems.empty());
+}
+
 // --- panels
 
 struct PanelCase {
@@ -243,6 +350,41 @@ TEST(CrashDialogTest, LeavesOutEachPluginOnceUnlessToldOtherwise)
     EXPECT_THAT(dialog.leftOut(), ElementsAre("org.acme.a", "org.acme.b"));
     dialog.findChildren<QCheckBox*>().first()->setChecked(false);
     EXPECT_THAT(dialog.leftOut(), ElementsAre("org.acme.b"));
+    EXPECT_FALSE(dialog.safeMode());
+    EXPECT_EQ(dialog.recovery().kind, RecoveryChoice::Kind::Later) << "there is no work to recover";
+}
+
+TEST(CrashDialogTest, GoesOnWithAllPluginsOrWithTheShippedOnesWhereThatIsChosen)
+{
+    const CrashDialog dialog(std::vector<CrashNote>{{"org.acme.a", "it crashed"}});
+    auto* without = dialog.findChild<QRadioButton*>("withoutPlugins");
+    ASSERT_TRUE(without->isChecked());
+    dialog.findChild<QRadioButton*>("safeMode")->setChecked(true);
+    EXPECT_TRUE(dialog.safeMode());
+    EXPECT_TRUE(dialog.leftOut().empty());
+    EXPECT_FALSE(dialog.findChild<QCheckBox*>()->isEnabled());
+    dialog.findChild<QRadioButton*>("withAllPlugins")->setChecked(true);
+    EXPECT_FALSE(dialog.safeMode());
+    EXPECT_TRUE(dialog.leftOut().empty());
+}
+
+TEST(CrashDialogTest, OffersTheUnsavedWorkInTheSameDialog)
+{
+    JournalInfo first, second;
+    first.name = "Game", first.changes = 3, first.project = "/games/game/project.jet";
+    second.name = "Untitled", second.changes = 1;
+    const CrashDialog dialog(std::vector<CrashNote>{{"org.acme.a", "it crashed"}}, {first, second});
+    auto* work = dialog.findChild<QTreeWidget*>("unsavedWork");
+    ASSERT_EQ(work->topLevelItemCount(), 2);
+    EXPECT_EQ(work->topLevelItem(0)->text(1), "3");
+    EXPECT_EQ(dialog.recovery().kind, RecoveryChoice::Kind::Recover) << "nothing is lost by pressing Enter";
+    work->setCurrentItem(work->topLevelItem(1));
+    EXPECT_EQ(dialog.recovery().index, 1u);
+    dialog.findChild<QRadioButton*>("keepWork")->setChecked(true);
+    EXPECT_EQ(dialog.recovery().kind, RecoveryChoice::Kind::Later);
+    EXPECT_FALSE(dialog.leftOut().empty()) << "the plugins are another question";
+    dialog.findChild<QRadioButton*>("discardWork")->setChecked(true);
+    EXPECT_EQ(dialog.recovery().kind, RecoveryChoice::Kind::Discard);
 }
 
 }  // namespace

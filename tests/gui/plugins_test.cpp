@@ -1,15 +1,18 @@
 // Plugins in the window: settings, what is missing, and the Plugins panel, over a plugin manager with the fixtures.
 #include "../host/plugins/plugin_folder.hpp"
 #include "host/plugins/plugin_control.hpp"
+#include "host/plugins/plugin_set_files.hpp"
 #include "host/plugins/user_choice.hpp"
 #include "plugins_widget.hpp"
 #include "window/main_window.hpp"
+#include "window/plugin_diff_dialog.hpp"
 #include "window/settings_dialog.hpp"
 
 #include <jet/ui/property_editor.hpp>
 
 #include <QApplication>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
@@ -17,6 +20,7 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QSettings>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTextBrowser>
@@ -54,8 +58,9 @@ protected:
         host::PluginOptions options;
         options.searchPath = {folder.path(), host::builtInPluginFolder()};
         options.disabled = host::readDisabledPlugins();
-        options.only = {{"org.jet.test.good", "org.acme.needy", "org.jet.tool.rectangle", "org.jet.tool.ellipse",
-                         "org.jet.panel.plugins", "org.jet.panel.output"}};
+        options.set = host::PluginSet::of({"org.jet.test.good", "org.acme.needy", "org.jet.tool.rectangle",
+                                           "org.jet.tool.ellipse", "org.jet.panel.plugins", "org.jet.panel.output"},
+                                          "test");
         options.settings = host::userConfigFolder() / "settings";
         manager_ = std::make_unique<host::PluginManager>(std::move(options));
         manager_->scan();
@@ -133,35 +138,135 @@ TEST_F(PluginsInTheWindowTest, WhatIsMissingIsOfferedWithAButtonThatEnablesIt)
     EXPECT_EQ(messageButton(), nullptr) << "nothing to enable";
 }
 
-TEST_F(PluginsInTheWindowTest, AProjectThatMissesAPluginOffersItAndIsReadAgainOnceItIsThere)
+// --- what a project wants
+
+class ProjectPluginsTest : public PluginsInTheWindowTest {
+protected:
+    /// A shape with the effects "tint" (of Good, in the version given) and "hemp" (of a plugin that is nowhere).
+    std::filesystem::path writeProject(const std::string& versionOfGood = "1.2.3", bool hemp = true)
+    {
+        const std::filesystem::path project = folder.path() / "game";
+        std::filesystem::create_directories(project);
+        std::ofstream(project / "project.jet")
+            << "<jet-project version=\"1\" name=\"Game\"><plugins><plugin id=\"org.jet.test.good\" version=\"" +
+                   versionOfGood + "\" uses=\"1\" provides=\"effects/tint\"/>" +
+                   (hemp ? "<plugin id=\"org.acme.gone\" version=\"2.0.0\" uses=\"1\" provides=\"effects/hemp\"/>"
+                         : "") +
+                   "</plugins><filter name=\"F\"><scene name=\"One\" file=\"one.scene\"/></filter></jet-project>";
+        std::ofstream(project / "one.scene")
+            << std::string("<scene version=\"1\"><item type=\"shape\" id=\"1\" name=\"Box\"><path>M 0 0 L 10 0 L 10 10 "
+                           "Z</path><effect type=\"tint\"><property id=\"color\">#ff0000</property></effect>") +
+                   (hemp ? "<effect type=\"hemp\"/>" : "") + "</item></scene>";
+        return project;
+    }
+    host::PluginDiffDialog* dialog() { return window().pluginController().differencesShown(); }
+    QTableWidget* table() { return dialog()->findChild<QTableWidget*>("pluginDifferences"); }
+    QString cell(int row, int column) { return table()->item(row, column)->text(); }
+    Value color()
+    {
+        return *window().activeScene()->root().children().front()->effects().front().properties.find("color");
+    }
+    void pump()
+    {
+        for (int i = 0; i < 4; ++i) QApplication::processEvents();
+    }
+    using Dialog = host::PluginDiffDialog;
+};
+
+TEST_F(ProjectPluginsTest, OneDialogTellsAllDifferencesAndEnablesWhatCanBeEnabled)
 {
     start();
     ASSERT_TRUE(control().setEnabled("org.jet.test.good", false));
-    const std::filesystem::path project = folder.path() / "game";
-    std::filesystem::create_directories(project);
-    std::ofstream(project / "project.jet")
-        << "<jet-project version=\"1\" name=\"Game\"><plugins><plugin id=\"org.acme.gone\" version=\"2.0.0\" "
-           "uses=\"1\" "
-           "provides=\"effects/hemp\"/></plugins><filter name=\"F\"><scene name=\"One\" "
-           "file=\"one.scene\"/></filter></jet-project>";
-    std::ofstream(project / "one.scene")
-        << "<scene version=\"1\"><item type=\"shape\" id=\"1\" name=\"Box\"><path>M 0 0 L 10 0 L 10 10 Z</path><effect "
-           "type=\"tint\"><property id=\"color\">#ff0000</property></effect><effect type=\"hemp\"/></item></scene>";
-    ASSERT_TRUE(window().projects().open(project));
-    QStringList texts;
-    for (const QLabel* label : window().messages().findChildren<QLabel*>()) texts << label->text();
-    const std::string all = texts.join('\n').toStdString();
-    EXPECT_THAT(all, HasSubstr("The effect 'tint' needs Good (org.jet.test.good 1.2.3), which is disabled"));
-    EXPECT_THAT(all,
-                HasSubstr("The effect 'hemp' needs the plugin org.acme.gone 2.0.0, which the project was saved with"));
-    const auto color = [this] {
-        return *window().activeScene()->root().children().front()->effects().front().properties.find("color");
-    };
+    ASSERT_TRUE(window().projects().open(writeProject()));
+    pump();
+    ASSERT_NE(dialog(), nullptr);
+    EXPECT_TRUE(dialog()->isVisible());
+    EXPECT_TRUE(window().messages().text().isEmpty()) << "the dialog says it all";
+    ASSERT_EQ(table()->rowCount(), 2);
+    EXPECT_EQ(cell(0, Dialog::Name), "org.acme.gone");
+    EXPECT_EQ(cell(0, Dialog::Wanted), "2.0.0");
+    EXPECT_EQ(cell(0, Dialog::Here), "nothing");
+    EXPECT_EQ(cell(0, Dialog::Uses), "1");
+    EXPECT_THAT(cell(0, Dialog::Remedy).toStdString(), HasSubstr("Get its .jetplugin file"));
+    EXPECT_EQ(cell(1, Dialog::Name), "Good");
+    EXPECT_EQ(cell(1, Dialog::Here), "1.2.3, switched off");
+    EXPECT_EQ(cell(1, Dialog::Remedy), "Enable it.");
     EXPECT_TRUE(color().isRaw());
-    QTest::mouseClick(messageButton(), Qt::LeftButton);
-    QApplication::processEvents();
-    QApplication::processEvents();
-    EXPECT_FALSE(color().isRaw()) << "the project was read again";
+    QTest::mouseClick(dialog()->findChild<QPushButton*>("enableAll"), Qt::LeftButton);
+    pump();
+    ASSERT_NE(dialog(), nullptr) << "one is missing still";
+    ASSERT_EQ(table()->rowCount(), 1);
+    EXPECT_FALSE(dialog()->findChild<QPushButton*>("enableAll")->isEnabled());
+    EXPECT_FALSE(color().isRaw()) << "the project was read again behind it";
+    dialog()->accept();
+    pump();
+    EXPECT_EQ(dialog(), nullptr) << "does not ask again";
+    EXPECT_TRUE(control().plugin("org.jet.test.good")->isUsable());
+}
+
+TEST_F(ProjectPluginsTest, TheDialogEndsByItselfWhenNothingIsLeft)
+{
+    start();
+    ASSERT_TRUE(control().setEnabled("org.jet.test.good", false));
+    ASSERT_TRUE(window().projects().open(writeProject("1.2.3", false)));
+    pump();
+    ASSERT_NE(dialog(), nullptr);
+    QTest::mouseClick(table()->findChild<QPushButton*>("org.jet.test.good"), Qt::LeftButton);
+    pump();
+    EXPECT_EQ(dialog(), nullptr);
+    EXPECT_FALSE(color().isRaw());
+}
+
+TEST_F(ProjectPluginsTest, AnotherVersionIsToldUntilTheUserDoesNotWantToKnow)
+{
+    start();
+    const auto project = writeProject("1.0.0", false);
+    ASSERT_TRUE(window().projects().open(project));
+    pump();
+    ASSERT_NE(dialog(), nullptr);
+    EXPECT_EQ(cell(0, Dialog::Wanted), "1.0.0");
+    EXPECT_EQ(cell(0, Dialog::Here), "1.2.3");
+    EXPECT_THAT(cell(0, Dialog::Remedy).toStdString(), HasSubstr("Go on with the newer one"));
+    QCheckBox* again = dialog()->findChild<QCheckBox*>();
+    ASSERT_TRUE(again->isVisible());
+    again->setChecked(false);
+    dialog()->accept();
+    pump();
+    window().projects().create();
+    ASSERT_TRUE(window().projects().open(project));
+    pump();
+    EXPECT_EQ(dialog(), nullptr);
+}
+
+TEST_F(ProjectPluginsTest, NothingIsAskedWhereAllIsAsItWasSaved)
+{
+    start();
+    ASSERT_TRUE(window().projects().open(writeProject("1.2.3", false)));
+    pump();
+    EXPECT_EQ(dialog(), nullptr);
+    EXPECT_TRUE(window().messages().text().isEmpty());
+}
+
+TEST_F(ProjectPluginsTest, AnotherProjectTakesTheDialogAway)
+{
+    start();
+    ASSERT_TRUE(window().projects().open(writeProject()));
+    pump();
+    ASSERT_NE(dialog(), nullptr);
+    window().projects().create();
+    ASSERT_TRUE(window().projects().open(writeProject("1.2.3", false)));
+    pump();
+    EXPECT_EQ(dialog(), nullptr);
+}
+
+TEST_F(ProjectPluginsTest, AFrozenEditorOpensNoProjectWithOtherPlugins)
+{
+    start();
+    window().pluginController().setFrozen(true);
+    EXPECT_FALSE(window().projects().open(writeProject("1.0.0", false)));
+    EXPECT_THAT(window().messages().text().toStdString(), HasSubstr("org.jet.test.good: version 1.2.3 is here"));
+    EXPECT_EQ(window().project().name(), "Untitled");
+    EXPECT_TRUE(window().projects().open(writeProject("1.2.3", false)));
 }
 
 TEST_F(PluginsInTheWindowTest, AProjectsOwnPluginsComeInBeforeItIsRead)
@@ -301,6 +406,46 @@ TEST_F(PluginsPanelTest, WhatCannotBeInstalledIsSaid)
 {
     panel->install("nothing.jetplugin");
     EXPECT_THAT(window().messages().text().toStdString(), HasSubstr("cannot install plugins"));
+}
+
+// --- sets
+
+TEST_F(PluginsPanelTest, ASetIsChosenAndToolsFollowAtOnce)
+{
+    auto* chooser = panel->findChild<QComboBox*>("pluginSet");
+    ASSERT_NE(chooser, nullptr);
+    EXPECT_THAT(chooser->currentText().toStdString(), testing::StartsWith("test ("));
+    EXPECT_FALSE(tools().contains("tool:selection"));
+    const int minimal = chooser->findText("Minimal", Qt::MatchStartsWith);
+    ASSERT_GE(minimal, 0);
+    chooser->setCurrentIndex(minimal);
+    emit chooser->activated(minimal);
+    QApplication::processEvents();
+    EXPECT_TRUE(tools().contains("tool:selection"));
+    EXPECT_FALSE(tools().contains("tool:rectangle"));
+    EXPECT_EQ(host::readChosenSet(), "minimal") << "for later runs";
+    EXPECT_EQ(chooser->currentIndex(), minimal);
+    EXPECT_FALSE(control().plugin("org.jet.test.good")->isUsable());
+    EXPECT_THAT(control().plugin("org.jet.test.good")->reason, HasSubstr("not in the chosen plugin set 'minimal'"));
+    emit chooser->activated(0);  // all plugins
+    QApplication::processEvents();
+    EXPECT_TRUE(tools().contains("tool:rectangle"));
+    EXPECT_EQ(host::readChosenSet(), "");
+}
+
+TEST_F(PluginsPanelTest, WhatIsInUseIsSavedAsASet)
+{
+    auto* chooser = static_cast<plugins::SetChooser*>(panel->findChild<QComboBox*>("pluginSet"));
+    chooser->askName = [](const QString&) { return QStringLiteral("My tools"); };
+    emit chooser->activated(chooser->count() - 1);
+    EXPECT_GE(chooser->findText("My tools", Qt::MatchStartsWith), 0);
+    const auto set = host::PluginSetFiles().read("My tools");
+    ASSERT_TRUE(set) << set.error().text();
+    EXPECT_TRUE(set->holds("org.jet.tool.rectangle"));
+    EXPECT_FALSE(set->holds("org.jet.tool.selection")) << "is left out at present";
+    chooser->askName = [](const QString&) { return QStringLiteral("../bad"); };
+    emit chooser->activated(chooser->count() - 1);
+    EXPECT_THAT(window().messages().text().toStdString(), HasSubstr("cannot be the name of a plugin set"));
 }
 
 TEST_F(PluginsPanelTest, SwitchingOffThePanelItselfIsSurvived)

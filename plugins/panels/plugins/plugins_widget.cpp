@@ -34,8 +34,9 @@ QString joined(const std::vector<std::string>& ids)
 }  // namespace
 
 PluginsWidget::PluginsWidget(Editor& editor)
-    : editor_(editor), table_(this), filter_(new QLineEdit(this)), view_(new QTreeView(this)),
-      details_(new QTextBrowser(this)), ask_([this](const QString& question) { return askUser(question); })
+    : editor_(editor), table_(this), sets_(new SetChooser(editor, this)), filter_(new QLineEdit(this)),
+      view_(new QTreeView(this)), details_(new QTextBrowser(this)),
+      ask_([this](const QString& question) { return askUser(question); })
 {
     filter_->setObjectName("pluginFilter");
     filter_->setPlaceholderText(translated("Filter by name, state, or what it offers"));
@@ -54,24 +55,30 @@ PluginsWidget::PluginsWidget(Editor& editor)
     view_->header()->setSectionResizeMode(PluginTable::Name, QHeaderView::Stretch);
     details_->setObjectName("pluginDetails");
     details_->setOpenLinks(false);
+    details_->setPlaceholderText(translated("Choose a plugin to see what it is and what it costs."));
     auto* split = new QSplitter(this);
     split->addWidget(view_);
     split->addWidget(details_);
     split->setStretchFactor(0, 3);
     split->setStretchFactor(1, 2);
+    split->setSizes({620, 300});  // names stay readable in the place the panel has at first
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(2);
     layout->addLayout(createButtons());
     layout->addWidget(split, 1);
 
+    sets_->onChange = [this](const Result<PluginChange>& change) { tell(change); };
     table_.onSwitch = [this](const PluginInfo& plugin, bool on) { switchPlugin(plugin, on); };
     connect(filter_, &QLineEdit::textChanged, &filtered_, &QSortFilterProxyModel::setFilterFixedString);
     connect(view_->selectionModel(), &QItemSelectionModel::currentChanged, this, [this] { showCurrent(); });
     connect(&table_, &QAbstractItemModel::dataChanged, this, [this] { showCurrent(); });
     connect(&table_, &QAbstractItemModel::modelReset, this, [this] { showCurrent(); });
     connect(&refresh_, &QTimer::timeout, this, [this] { refresh(); });
-    changed_ = editor_.events().subscribe<PluginsChanged>(nullptr, [this](const PluginsChanged&) { refresh(); });
+    changed_ = editor_.events().subscribe<PluginsChanged>(nullptr, [this](const PluginsChanged&) {
+        refresh();
+        sets_->refresh();
+    });
     refresh();
     for (int column = PluginTable::Version; column < PluginTable::Columns; ++column)
         view_->resizeColumnToContents(column);
@@ -93,6 +100,7 @@ QHBoxLayout* PluginsWidget::createButtons()
 {
     auto* bar = new QHBoxLayout;
     bar->setContentsMargins(4, 3, 4, 0);
+    bar->addWidget(sets_);
     bar->addWidget(filter_, 1);
     bar->addWidget(button("import", "pluginInstall", translated("Install from a file…"), [this] {
         const QString file =
@@ -116,6 +124,7 @@ void PluginsWidget::showEvent(QShowEvent* event)
 {
     QWidget::showEvent(event);
     refresh();
+    sets_->refresh();
     refresh_.start(kRefreshMs);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plugin_table.hpp"
+#include "set_chooser.hpp"
 
 #include <jet/editor.hpp>
 
@@ -45,6 +46,7 @@ private:
     Editor& editor_;
     PluginTable table_;
     QSortFilterProxyModel filtered_;
+    SetChooser* sets_;
     QLineEdit* filter_;
     QTreeView* view_;
     QTextBrowser* details_;

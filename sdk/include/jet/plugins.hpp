@@ -16,6 +16,7 @@
 
 namespace jet {
 
+class Project;
 class Settings;
 
 /// Found -> Valid -> Resolved -> Loaded -> Active, or Disabled, Shadowed, Faulted; see docs/plugins.md.
@@ -74,6 +75,33 @@ struct Provider {
     bool canEnable() const { return availability == Availability::Disabled || availability == Availability::LeftOut; }
 };
 
+/// A named list of plugins, docs/plugin-sets.md.
+struct PluginSetInfo {
+    std::string name;         ///< chooses it: useSet(), --plugins; empty: all plugins, no set
+    std::string title;        ///< for people
+    std::string description;  ///< a sentence; may be empty
+    std::string source;       ///< where it is from: "shipped", "user", "project", "command line", or "" for all plugins
+    std::filesystem::path file;
+    std::size_t plugins = 0;  ///< installed ones that it holds
+    std::vector<std::string>
+        missing;          ///< what it names and is not installed in a fitting version, each with the reason
+    std::string problem;  ///< why its file cannot be read; empty: it can
+    bool inUse = false;
+};
+
+/// What a project or its set says of a plugin and what is here, where the two differ.
+struct PluginDifference {
+    enum class Kind { Missing, Disabled, LeftOut, Faulted, OtherVersion };
+    Kind kind = Kind::Missing;
+    std::string id, name;
+    std::string wanted;  ///< version, or a range of them; empty: any
+    std::string here;    ///< version; empty: not installed
+    int uses = 0;        ///< items, effects and engines of the project that come from it; 0: its set names it
+    std::string reason;  ///< what the difference is: a sentence without its full stop
+    std::string remedy;  ///< what can be done: a sentence without its full stop
+    bool canEnable() const { return kind == Kind::Disabled || kind == Kind::LeftOut; }
+};
+
 /// [gui]
 class JET_API PluginsCenter {
 public:
@@ -102,6 +130,18 @@ public:
     virtual std::shared_ptr<Settings> settings(std::string_view page) = 0;
     /// For formats `id` is an extension.
     virtual Provider whoProvides(ContributionKind kind, std::string_view id) const = 0;
+
+    /// All sets that can be chosen: "all plugins" first, then the project's, the user's, the shipped ones. The default
+    /// knows none.
+    virtual std::vector<PluginSetInfo> sets() const;
+    /// Uses the plugins of that set only, from now on and in later runs; an empty name: all. The default refuses, as
+    /// does the next.
+    virtual Result<PluginChange> useSet(std::string_view name);
+    /// Writes the plugins that can be used now as a set of the user's. Replaces one of that name.
+    virtual Result<PluginSetInfo> saveSet(std::string_view name);
+    /// Plugins the project was saved with, or its plugins.jetset names, that are not here as they were then. The
+    /// default finds none.
+    virtual std::vector<PluginDifference> differences(const Project& project) const;
 };
 
 }  // namespace jet

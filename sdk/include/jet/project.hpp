@@ -89,6 +89,8 @@ public:
     /// Loaded with these remarks (missing plugins, placeholders).
     const std::vector<FormatNote>& notes() const { return notes_; }
     std::vector<PluginUse> pluginsUsed() const;
+    /// The same as its file says: of when it was saved last, by whatever versions.
+    const std::vector<PluginUse>& recordedPlugins() const { return recordedUses_; }
     /// Hash over all scenes' content and the tree's structure.
     std::uint64_t hash() const;
 

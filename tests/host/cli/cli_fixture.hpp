@@ -31,7 +31,7 @@ protected:
         std::filesystem::create_directories(home());
         write(
             "test.jetset",
-            R"({ "name": "Test", "plugins": ["org.jet.test.good", "org.jet.test.throws-inside", "org.jet.test.throws-on-load",
+            R"({ "name": "Test", "plugins": [], "optional": ["org.jet.test.good", "org.jet.test.throws-inside", "org.jet.test.throws-on-load",
                                                        "org.jet.test.no-symbol", "org.acme.a", "org.acme.b"] })");
     }
 

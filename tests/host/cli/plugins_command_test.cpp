@@ -200,6 +200,25 @@ TEST_F(PluginsCommandTest, WithoutTakesPluginsAway)
     EXPECT_THAT(jet("plugins list --without org.jet.test.good").out, testing::Not(HasSubstr("org.jet.test.good")));
 }
 
+TEST_F(PluginsCommandTest, AFolderWhoseManifestCannotBeReadIsListedUnderTheNameItGives)
+{
+    plugins().write("rope-1.2", "{ \"id\": \"org.acme.rope\", \"name\": \"Rope\", \"version\": 12 }");
+    plugins().write("torn", "{ \"id\": \"org.acme.torn\",\n  \"name\": \"Torn\",\n  \"contributes\": {");
+    plugins().write("empty", "");
+    const std::string options = "--plugin-path '" + plugins().path().string() + "' plugins ";
+    std::map<std::string, nlohmann::json> found;
+    for (const auto& one : json(plain(options + "list --json").out))
+        if (one["state"] == "faulted") found[one["id"]] = one;
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(found["org.acme.rope"]["name"], "Rope");
+    EXPECT_EQ(found["org.acme.rope"]["version"], "") << "what it says there cannot be trusted";
+    EXPECT_THAT(found["org.acme.rope"]["reason"].get<std::string>(), HasSubstr("rope-1.2/plugin.json:1:"));
+    EXPECT_EQ(found["org.acme.torn"]["name"], "Torn") << "although the file ends in the middle";
+    EXPECT_EQ(found["empty"]["name"], "empty") << "the folder's, where there is nothing else";
+    EXPECT_THAT(plain(options + "list").out, testing::ContainsRegex("org.acme.torn +- +faulted +.*plugin.json:3:"));
+    EXPECT_THAT(plain(options + "info org.acme.torn").err, HasSubstr("the plugin Torn (org.acme.torn) cannot be used"));
+}
+
 TEST_F(PluginsCommandTest, WrongSetsAndFoldersAreTold)
 {
     EXPECT_THAT(plain("--plugin-path nowhere plugins list").err,

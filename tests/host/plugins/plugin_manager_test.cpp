@@ -284,10 +284,10 @@ TEST_F(PluginManagerTest, WithoutMeansNotInstalledDisabledMeansSwitchedOff)
     EXPECT_EQ(manager->effect("b"), nullptr);
     EXPECT_THAT(manager->explain(ContributionKind::Effect, "b"), HasSubstr("which is disabled: switched off"));
     options.without = options.disabled = {};
-    options.only = {{"org.acme.c"}};
+    options.set = PluginSet::of({"org.acme.c"});
     scan(options);
     EXPECT_EQ(state("org.acme.b"),
-              "disabled: not in the chosen plugin set; add it to the set, or start JET without --plugins");
+              "disabled: not in the chosen plugin set; add it to the set, or choose another one ('jet plugins sets')");
     EXPECT_EQ(state("org.acme.c"), "resolved");
 }
 

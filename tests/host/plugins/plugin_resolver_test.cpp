@@ -160,8 +160,7 @@ TEST_F(PluginResolverTest, EachWayOfBeingMissingHasItsAnswer)
         "contributes": { "effects": [ { "id": "dropped", "label": "x" } ] } })");
     PluginOptions options;
     options.disabled = {"org.acme.off"};
-    options.only = {{"org.acme.usable", "org.acme.off", "org.acme.broken"}};
-    options.setName = "small";
+    options.set = PluginSet::of({"org.acme.usable", "org.acme.off", "org.acme.broken"}, "small");
     scan(options);
     manager->recall(
         {"org.acme.hemp", "2.1.0", 3, {{ContributionKind::Effect, "hemp"}, {ContributionKind::ItemType, "knot"}}});
