@@ -92,6 +92,14 @@ ActuatorHandle Actuators::add(const State& state, const ForceActuatorDef& def)
     return static_cast<ActuatorHandle>(forces_.size() - 1);
 }
 
+void Actuators::setSpring(ActuatorHandle handle, double restLength, double ks, double kd, double tearRatio)
+{
+    Spring& spring = springs_[handle];
+    if (restLength >= 0) spring.restLength = restLength;
+    spring.ks = ks, spring.kd = kd;
+    spring.tearLength = tearRatio > 0 ? spring.restLength * tearRatio : 0;
+}
+
 void Actuators::addTo(StiffnessBounds& bounds, const State& state) const
 {
     for (const Spring& spring : springs_) {

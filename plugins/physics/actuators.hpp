@@ -16,6 +16,9 @@ public:
     bool any() const { return anySpring() || !torques_.empty() || !forces_.empty(); }
     Index torqueCount() const { return static_cast<Index>(torques_.size()); }
     Index forceCount() const { return static_cast<Index>(forces_.size()); }
+    Index springCount() const { return static_cast<Index>(springs_.size()); }
+    /// restLength < 0: as it is. What is torn stays torn.
+    void setSpring(ActuatorHandle, double restLength, double ks, double kd, double tearRatio);
     void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }
     void setForce(ActuatorHandle handle, const Vec2& value) { forces_[handle].force = value; }
 
@@ -32,7 +35,8 @@ public:
     template <class Archive>
     void archive(Archive& with)
     {
-        for (Spring& spring : springs_) with(spring.alive);
+        for (Spring& spring : springs_)
+            with(spring.alive), with(spring.restLength), with(spring.ks), with(spring.kd), with(spring.tearLength);
         for (AngularSpring& spring : angularSprings_) with(spring.angle);
         for (Torque& torque : torques_) with(torque.value);
         for (Force& force : forces_) with(force.force);

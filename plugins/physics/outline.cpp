@@ -6,7 +6,8 @@ namespace jet::physics {
 
 namespace {
 
-constexpr int kCorners = 16;  // of a circle
+constexpr int kCorners = 16;   // of a circle
+constexpr double kBand = 0.4;  // of a chain's shortest side: depth of its band
 
 /// Appends `count` points of an arc from `start` over `sweep` radians, both ends included where it is not closed.
 void addArc(std::vector<Vec2>& ring, const Vec2& centre, double radius, double start, double sweep, int count,
@@ -18,9 +19,32 @@ void addArc(std::vector<Vec2>& ring, const Vec2& centre, double radius, double s
 
 }  // namespace
 
+namespace {
+
+/// A band along the line, on its solid side: thin enough not to meet itself.
+std::vector<Vec2> bandOf(const std::vector<Vec2>& line)
+{
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const double length = (line[i + 1] - line[i]).norm();
+        if (length > 0) shortest = std::min(shortest, length);
+    }
+    std::vector<Vec2> ring = line;
+    for (std::size_t i = line.size(); i-- > 0;) {
+        Vec2 along(0, 0);
+        if (i > 0) along += (line[i] - line[i - 1]).stableNormalized();
+        if (i + 1 < line.size()) along += (line[i + 1] - line[i]).stableNormalized();
+        if (along.norm() > 1e-9) ring.push_back(line[i] + kBand * shortest * perpendicular(along).normalized());
+    }
+    return ring;
+}
+
+}  // namespace
+
 std::vector<Vec2> outlineOf(const ShapeDef& shape)
 {
     if (shape.kind == ShapeDef::Kind::Polygon) return shape.points;
+    if (shape.kind == ShapeDef::Kind::Chain) return bandOf(shape.points);
     std::vector<Vec2> ring;
     // A regular polygon of n corners has the area n/2 sin(2 pi / n) r².
     const double inscribed = kCorners / (2 * kPi) * direction(2 * kPi / kCorners).y();
@@ -46,6 +70,7 @@ struct Moments {
 Moments momentsOf(const ShapeDef& shape)
 {
     Moments m;
+    if (shape.kind == ShapeDef::Kind::Chain) return m;
     const double r = shape.radius, disc = kPi * r * r;
     if (shape.kind == ShapeDef::Kind::Circle) {
         m.area = disc, m.second = 0.5 * disc * r * r, m.centroid = shape.points[0];

@@ -75,6 +75,7 @@ struct BodyRecord {
     bool simple = false;     // rigid, of convex parts: meets its like in rigid/, not by points and walls
     bool wide = false;       // soft: meets its like in soft/contacts.hpp
     bool kinematic = false;  // moves with its velocity, and nothing pushes it
+    bool enabled = true;     // may move, meet and be seen
     std::uint32_t layer = 1;
     Index material = 0;
     double gravityScale = 1;

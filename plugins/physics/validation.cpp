@@ -117,7 +117,11 @@ void validate(const RigidBodyDef& def, const WorldSettings& settings)
     if (!(def.mass > 0)) fail("a rigid body's mass must be greater than 0.");
     for (const auto& border : def.borders)
         for (const Vec2& at : border) requirePlace("a rigid body's border point", at);
-    for (const ShapeDef& shape : def.shapes) validate(shape);
+    for (const ShapeDef& shape : def.shapes) {
+        validate(shape);
+        if (shape.kind == ShapeDef::Kind::Chain && !def.common.fixed)
+            fail("a chain has no inside, so only a fixed body may have one; draw a closed border for one that moves.");
+    }
 }
 
 void validate(const ShapeDef& shape)
@@ -127,6 +131,10 @@ void validate(const ShapeDef& shape)
         if (shape.points.size() < 3 || shape.points.size() > 8)
             fail("a polygon shape has 3 to 8 points, not " + std::to_string(shape.points.size()) +
                  "; give other outlines as borders.");
+        return;
+    }
+    if (shape.kind == ShapeDef::Kind::Chain) {
+        if (shape.points.size() < 2) fail("a chain shape has 2 points or more.");
         return;
     }
     const std::size_t wanted = shape.kind == ShapeDef::Kind::Circle ? 1 : 2;
@@ -141,6 +149,19 @@ void validate(const Anchor& anchor, std::size_t bodyCount)
     requirePlace("an anchor's point", anchor.point);
     requireFinite("an anchor's radius", {anchor.radius});
     if (anchor.radius < 0) fail("an anchor's radius must not be negative.");
+}
+
+void validateJoint(const JointDef& def)
+{
+    requireFinite("a joint's limits and motor", {def.lower, def.upper, def.motorSpeed, def.maxForce, def.maxTorque,
+                                                 def.hertz, def.dampingRatio, def.length, def.ratio, def.breakForce});
+    requireFinite("a joint's axis", def.axis);
+    requireFinite("a joint's motor velocity", def.motorVelocity);
+    requirePlace("a pulley's wheel", def.groundA);
+    requirePlace("a pulley's wheel", def.groundB);
+    if (def.maxForce < 0 || def.maxTorque < 0 || def.hertz < 0 || def.dampingRatio < 0 || def.lower > def.upper)
+        throw Failure(Error("Physics: a joint's force, torque, frequency and damping must not be negative, and its "
+                            "lower limit not above its upper one."));
 }
 
 }  // namespace jet::physics

@@ -22,6 +22,8 @@ void validate(const SoftMatter&);
 void validate(const ForceFieldDef&);
 void validate(const Anchor&, std::size_t bodyCount);
 void requireSpring(std::string_view what, double restLength, double ks, double kd, double tearRatio);
+/// All but its anchors.
+void validateJoint(const JointDef&);
 /// Handles and indices that the caller made up.
 void requireBelow(std::string_view what, std::size_t index, std::size_t count);
 

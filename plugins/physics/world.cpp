@@ -103,6 +103,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     body.springs.count = static_cast<Index>(def.springs.size());
     body.angularSprings.count = static_cast<Index>(def.angularSprings.size());
     shapes_.add(state_, def, handle, nodeOf);
+    queries_.addSoft(handle);
     return finishBody(def.common);
 }
 
@@ -123,6 +124,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     addBorders(state_, body, rings);
     setRigidMass(body, def);
     body.simple = rigid_.add(state_, handle, def);
+    queries_.addRigid(state_, handle, def);
     return finishBody(def.common);
 }
 

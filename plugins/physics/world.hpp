@@ -5,6 +5,7 @@
 #include "contact_finder.hpp"
 #include "contact_solver.hpp"
 #include "force_fields.hpp"
+#include "queries.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
 #include "soft/contacts.hpp"
@@ -55,6 +56,11 @@ public:
     std::span<const std::uint32_t> pieces(BodyHandle body) const override;
     std::vector<std::vector<std::uint32_t>> borders(BodyHandle body) const override;
 
+    void setSettings(const WorldSettings&) override;
+    void setMass(BodyHandle, double mass) override;
+    void setJoint(JointHandle, const JointDef&) override;
+    void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio) override;
+
     JointHandle addJoint(const JointDef&) override;
     JointState joint(JointHandle) const override;
     std::size_t jointCount() const override { return jointsAt_.size(); }
@@ -63,6 +69,7 @@ public:
     void removeJoint(JointHandle) override;
     std::span<const ContactEvent> contactEvents() const override { return rigid_.events(); }
     std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter&) const override;
+    std::optional<CastHit> shapeCast(const ShapeDef&, const Vec2& way, const QueryFilter&) const override;
     std::vector<BodyHandle> overlapping(const Box&, const QueryFilter&) const override;
     std::optional<CastHit> nearest(const Vec2& point, double reach, const QueryFilter&) const override;
 
@@ -96,8 +103,8 @@ private:
     /// Points, readings and reports are worked out when someone asks.
     void refresh() const;
     void reportIfAsked() const;
-    template <class Visit>
-    void eachEdge(const QueryFilter&, const Box& region, Visit&&) const;
+    const Queries& queries() const;
+    void stepPart(double dt);
     /// Which border point and which wall of the bodies' outlines meet in a contact of simple shapes.
     void nameFeatures(Contact&) const;
     void report();
@@ -140,6 +147,7 @@ private:
     std::vector<JointAt> jointsAt_;
     soft::Tears tears_;
     RigidStage rigid_;
+    Queries queries_;
     bool stale_ = false;               // points and readings are older than the nodes
     bool untold_ = false;              // so are the reports
     Index complex_ = 0;                // bodies that go by points and walls

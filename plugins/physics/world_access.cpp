@@ -20,22 +20,6 @@ bool World::touching(BodyHandle a, BodyHandle b) const
     return std::binary_search(touching_.begin(), touching_.end(), pair);
 }
 
-bool World::contains(BodyHandle handle, const Vec2& point) const
-{
-    requireBelow("body", handle, bodyCount());
-    if (!isFinite(point)) return false;
-    const BodyRecord& body = state_.bodies[handle];
-    if (body.rigid) {
-        const Index node = body.nodes.first;
-        return body.grid.inside(unrotated(state_.nodes.rotation[node], point - state_.nodes.position[node]));
-    }
-    std::vector<EdgeGrid::Edge> edges;
-    for (Index w = body.walls.first; w < body.walls.end(); ++w)
-        edges.push_back(
-            {state_.points.position[state_.walls.first[w]], state_.points.position[state_.walls.second[w]]});
-    return insideOdd(edges, point);
-}
-
 void World::setTorque(ActuatorHandle torque, double value)
 {
     requireBelow("torque", torque, actuators_.torqueCount());
@@ -113,6 +97,8 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.position[p] = state_.pointNow(p);
     updateReading(state_, handle);
+    queries_.outdate();
+    if (body.rigid && state_.nodes.invMass[body.nodes.first] == 0) rigid_.rearrange();
 }
 
 void World::setGravity(const Vec2& gravity)
@@ -137,6 +123,7 @@ void World::archive(Self& self, Archive& with)
     with(nodes.angle);
     with(nodes.omega);
     with(nodes.rotation);
+    with(nodes.mass), with(nodes.invMass), with(nodes.invInertia);
     self.rigid_.archive(with);
     with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
     self.springs_.archive(with);
@@ -144,6 +131,7 @@ void World::archive(Self& self, Archive& with)
     self.actuators_.archive(with);
     self.fields_.archive(with);
     for (BodyRecord& body : self.state_.bodies) {
+        with(body.mass);
         SoftMatter& matter = body.matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
@@ -201,6 +189,8 @@ void World::restore(std::span<const std::byte> bytes)
     }
     rigid_.rebuild();
     finder_.exclude(softJoints_.excluded());
+    queries_.outdate();
+    rate_ = -1;
     stale_ = untold_ = false;
     updatePoints(state_);
     updateReadings(state_);

@@ -104,15 +104,7 @@ JointHandle World::addJoint(const JointDef& def)
                                 " has no simple rigid shape; joints hold those, soft bodies and the background. Give "
                                 "it shapes, or use a spring between bodies."));
     if (def.a.body == def.b.body) throw Failure(Error("Physics: a joint needs two different bodies."));
-    requireFinite("a joint's limits and motor", {def.lower, def.upper, def.motorSpeed, def.maxForce, def.maxTorque,
-                                                 def.hertz, def.dampingRatio, def.length, def.ratio, def.breakForce});
-    requireFinite("a joint's axis", def.axis);
-    requireFinite("a joint's motor velocity", def.motorVelocity);
-    requirePlace("a pulley's wheel", def.groundA);
-    requirePlace("a pulley's wheel", def.groundB);
-    if (def.maxForce < 0 || def.maxTorque < 0 || def.hertz < 0 || def.dampingRatio < 0 || def.lower > def.upper)
-        throw Failure(Error("Physics: a joint's force, torque, frequency and damping must not be negative, and its "
-                            "lower limit not above its upper one."));
+    validateJoint(def);
     jointsAt_.push_back({soft, soft ? softJoints_.add(state_, def) : rigid_.addJoint(state_, def)});
     if (soft) finder_.exclude(softJoints_.excluded());
     return static_cast<JointHandle>(jointsAt_.size() - 1);
@@ -183,90 +175,6 @@ void World::removeJoint(JointHandle handle)
     }
     handle = at.index;
     rigid_.removeJoint(handle);
-}
-
-/// Calls visit(body, first, second) for each side of each body whose box meets the region.
-template <class Visit>
-void World::eachEdge(const QueryFilter& filter, const Box& region, Visit&& visit) const
-{
-    refresh();
-    for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
-        const BodyRecord& body = state_.bodies[handle];
-        if (handle == filter.except || (body.layer & filter.mask) == 0 || (body.sensor && !filter.sensors)) continue;
-        if (!state_.readings.bounds[handle].intersects(region)) continue;
-        for (Index w = body.walls.first; w < body.walls.end(); ++w)
-            visit(handle, state_.points.position[state_.walls.first[w]], state_.points.position[state_.walls.second[w]],
-                  state_.walls.outward[w]);
-    }
-}
-
-std::optional<CastHit> World::rayCast(const Vec2& from, const Vec2& to, const QueryFilter& filter) const
-{
-    requirePlace("a ray's start", from);
-    requirePlace("a ray's end", to);
-    std::optional<CastHit> best;
-    const Vec2 way = to - from;
-    eachEdge(filter, Box(from, to), [&](BodyHandle body, const Vec2& first, const Vec2& second, int outward) {
-        const Vec2 edge = second - first;
-        const double across = cross(way, edge);
-        if (across == 0) return;
-        const double at = cross(first - from, edge) / across, along = cross(first - from, way) / across;
-        if (at < 0 || at > 1 || along < 0 || along > 1 || (best && best->fraction <= at)) return;
-        const Vec2 normal = perpendicular(edge).normalized() * (outward < 0 ? -1 : 1);
-        if (normal.dot(way) > 0) return;  // from within
-        best = CastHit{body, from + at * way, normal, at};
-    });
-    return best;
-}
-
-std::vector<BodyHandle> World::overlapping(const Box& box, const QueryFilter& filter) const
-{
-    std::vector<BodyHandle> found;
-    eachEdge(filter, box, [&](BodyHandle body, const Vec2& first, const Vec2& second, int) {
-        if (!found.empty() && found.back() == body) return;
-        // Clips the side to the box (Liang-Barsky).
-        double enter = 0, leave = 1;
-        const Vec2 way = second - first;
-        for (int axis = 0; axis < 2; ++axis) {
-            if (way[axis] == 0) {
-                if (first[axis] < box.min[axis] || first[axis] > box.max[axis]) return;
-                continue;
-            }
-            const double a = (box.min[axis] - first[axis]) / way[axis], b = (box.max[axis] - first[axis]) / way[axis];
-            enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
-        }
-        if (enter <= leave) found.push_back(body);
-    });
-    for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
-        const BodyRecord& body = state_.bodies[handle];
-        if (handle == filter.except || (body.layer & filter.mask) == 0 || (body.sensor && !filter.sensors)) continue;
-        if (state_.readings.bounds[handle].intersects(box) && contains(handle, box.center())) found.push_back(handle);
-    }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-}
-
-std::optional<CastHit> World::nearest(const Vec2& point, double reach, const QueryFilter& filter) const
-{
-    requirePlace("a query's point", point);
-    requireFinite("a query's reach", {reach});
-    std::optional<CastHit> best;
-    const Vec2 span(reach, reach);
-    eachEdge(filter, Box(point - span, point + span),
-             [&](BodyHandle body, const Vec2& first, const Vec2& second, int outward) {
-                 const Vec2 edge = second - first;
-                 const double squared = edge.squaredNorm();
-                 const double along = squared > 0 ? std::clamp((point - first).dot(edge) / squared, 0.0, 1.0) : 0;
-                 const Vec2 at = first + along * edge;
-                 const double fraction = reach > 0 ? (point - at).norm() / reach : 0;
-                 if (fraction > 1 || (best && best->fraction <= fraction)) return;
-                 best =
-                     CastHit{body, at,
-                             squared > 0 ? Vec2(perpendicular(edge).normalized() * (outward < 0 ? -1 : 1)) : Vec2(0, 0),
-                             fraction};
-             });
-    return best;
 }
 
 }  // namespace jet::physics

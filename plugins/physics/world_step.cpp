@@ -11,6 +11,9 @@ namespace jet::physics {
 
 namespace {
 
+// Contacts are sought for the whole of a step: a long one is taken in parts of so many seconds.
+constexpr double kLongestPart = 0.05, kMostParts = 10000;
+
 class Stopwatch {
 public:
     explicit Stopwatch(double& milliseconds) : milliseconds_(milliseconds) {}
@@ -33,6 +36,18 @@ void World::step(double dt)
     requireFinite("the time step", {dt});
     if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
     stats_ = StepStats();
+    queries_.outdate();
+    const int parts = static_cast<int>(std::min(std::ceil(dt / kLongestPart - 1e-9), kMostParts));
+    const std::vector<Vec2> forces = parts > 1 ? stepForces_ : std::vector<Vec2>();
+    const bool pushed = pushed_;
+    for (int i = 0; i < parts; ++i) {
+        if (i > 0) stepForces_ = forces, pushed_ = pushed;
+        stepPart(dt / parts);
+    }
+}
+
+void World::stepPart(double dt)
+{
     ended_.clear();
     untold_ = false;
     if (onlySimple()) return stepSimple(dt);

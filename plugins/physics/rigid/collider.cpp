@@ -27,8 +27,10 @@ Index Collider::addBody(const RigidBody& body)
     return static_cast<Index>(bodies_.size() - 1);
 }
 
-void Collider::addPart(Part part)
+void Collider::addPart(Part part, const PartOutline* outline)
 {
+    weld_.add(outline);
+    rearranged_ = true;
     RigidBody& body = bodies_.back();
     part.body = static_cast<Index>(bodies_.size() - 1);
     body.length = body.partCount == 0 ? part.length : std::max(body.length, part.length);
@@ -56,6 +58,13 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
 {
     const auto start = std::chrono::steady_clock::now();
     if (typical_ == 0 && !parts_.empty()) measure();
+    if (rearranged_ || !welded_) weld_.run(parts_, bodies_, state, typical_);
+    if (rearranged_) {
+        for (RigidContact& c : contacts_) c.due = true;
+        disturbed_ = true;
+    }
+    welded_ = true;
+    rearranged_ = false;
     prepareBodies();
     const float fall = static_cast<float>(settings.applyGravity ? settings.gravity.norm() * dt * dt : 0);
     std::atomic<bool> left = false;
@@ -279,6 +288,7 @@ void Collider::forgetPairs()
 
 void Collider::rebuild()
 {
+    rearranged_ = welded_ = false;  // outlines follow from places, points were restored
     known_.clear();
     for (Index i = 0; i < contacts_.size(); ++i)
         if (places_[i] != kFree) known_.insert(contacts_[i].key());
@@ -290,7 +300,7 @@ std::size_t Collider::bytes() const
            (poses_.capacity() + fitted_.capacity() + resting_.capacity()) * sizeof(Pose) +
            contacts_.capacity() * sizeof(RigidContact) + (places_.capacity() + free_.capacity()) * 4 +
            (drift_.capacity() + room_.capacity() + surprise_.capacity()) * sizeof(float) + sweep_.bytes() +
-           known_.bytes() + excluded_.bytes();
+           known_.bytes() + excluded_.bytes() + weld_.bytes();
 }
 
 }  // namespace jet::physics

@@ -7,6 +7,7 @@
 
 #include "pairs.hpp"
 #include "pool.hpp"
+#include "weld.hpp"
 
 #include <jet/physics.hpp>
 
@@ -16,7 +17,7 @@ class Collider {
 public:
     /// Begins a body; its parts follow.
     Index addBody(const RigidBody&);
-    void addPart(Part);
+    void addPart(Part, const PartOutline* = nullptr);
 
     /// Two bodies that shall not collide, because a joint holds them.
     void exclude(Index a, Index b) { excluded_.insert(bodyKey(a, b)); }
@@ -29,6 +30,9 @@ public:
     /// After update(): bodies that fast ones are going to hit may come farther than they know; they are given more
     /// room, and what they meet in it is to be updated too. False: there are none.
     bool expectHits(const State&, const WorldSettings&, double dt);
+
+    /// Does the pair hit, in this step, so hard that what lies behind must be known?
+    bool hits(const RigidContact&, double dt) const;
 
     /// Is the pair to be looked at in this step?
     bool due(const RigidContact& c) const { return c.due || drift_[c.bodyA] + drift_[c.bodyB] > c.slop; }
@@ -60,6 +64,8 @@ public:
 
     /// Relative speed of a pair's first point, as a part of the smaller part's size: how hard a hit is.
     float hitSpeed(const RigidContact&) const;
+    /// Bodies that stand were moved or changed.
+    void rearrange() { rearranged_ = true; }
     void forgetPairs();
     void disturbAll();
     std::size_t bytes() const;
@@ -100,6 +106,10 @@ private:
     bool surprise(Index body, float gain, double dt);
     bool apart(Index partA, Index partB) const;
     Relative relative(Index bodyA, Index bodyB) const;
+    Manifold meet(const RigidContact&, const Relative&, float reach) const;
+    bool fromBehind(const RigidContact&) const;
+    float withinBox(Index body, const Vec2& move, double dt) const;
+    float untilCentrePasses(const RigidContact&, const Vec2& relativeMove) const;
     float closingSpeed(const RigidContact&) const;
     bool reuse(RigidContact&, const Relative&, float reach) const;
     void renew(RigidContact&, const Manifold&, const Relative&, float reach) const;
@@ -108,6 +118,9 @@ private:
 
     std::vector<RigidBody> bodies_{RigidBody()};
     std::vector<Part> parts_;
+    Weld weld_;
+    bool rearranged_ = true;  // has something that stands come, gone or been moved?
+    bool welded_ = false;     // are the outlines those of where bodies stand?
     std::vector<Pose> poses_;
     std::vector<Pose> fitted_;     // as of the body's last fitting
     std::vector<Pose> resting_;    // where it was when it last moved

@@ -101,7 +101,7 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             const Place place = placeOf(static_cast<int>(block.colour), group * kWidth + lane);
             fetch(c, place);
             const bool kept = collider.update(c, dt);
-            block.foresees |= c.foreseen;
+            block.foresees |= collider.hits(c, dt);
             if (kept && c.count > 0 && c.resolve && resolve) {
                 write(collider, c, place);
                 block.hardest = std::max(block.hardest, collider.hitSpeed(c));
@@ -127,7 +127,7 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
         for (std::size_t at = i * kIdleABlock; at < last; ++at) {
             RigidContact& c = contacts[idleDue_[at]];
             const bool kept = collider.update(c, dt);
-            blocks_[i].foresees |= c.foreseen;
+            blocks_[i].foresees |= collider.hits(c, dt);
             if (!kept || c.touching || c.count > 0) blocks_[i].outcomes.push_back({idleDue_[at], kept});
         }
     });

@@ -19,6 +19,7 @@ void Collider::foresee(RigidContact& c, const Relative& at, double dt) const
 {
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
     Pose poseA = poses_[c.bodyA], poseB = poses_[c.bodyB];
+    if (fromBehind(c)) return;
     const float hit = timeOfImpact(a, b, poseA, poseB, dt, c.slop);
     if (hit > 1) return;
     const auto moveOn = [&](Pose& pose) {
@@ -31,7 +32,7 @@ void Collider::foresee(RigidContact& c, const Relative& at, double dt) const
     Relative then;
     then.move = turnedBack(poseA.turn, {static_cast<float>(poseB.x - poseA.x), static_cast<float>(poseB.y - poseA.y)});
     then.turn = turnedBack(poseA.turn, poseB.turn);
-    Manifold m = physics::collide(a, b, then, 8 * c.slop);
+    Manifold m = meet(c, then, 8 * c.slop);
     m.normal = turnedBack(poses_[c.bodyA].turn, turned(poseA.turn, m.normal));
     for (int i = 0; i < m.count; ++i)
         m.points[i].separation = dot(m.normal, at.move + turned(at.turn, m.points[i].onB) - m.points[i].onA);
@@ -68,6 +69,14 @@ float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& 
     return t / dtf;
 }
 
+bool Collider::hits(const RigidContact& c, double dt) const
+{
+    if (c.foreseen) return true;
+    // What overlaps from a hit before is hit again.
+    if (!fast_ || c.nearest() > 0) return false;
+    return closingSpeed(c) * static_cast<float>(dt) > kFast * std::min(parts_[c.partA].length, parts_[c.partB].length);
+}
+
 bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt)
 {
     if (!fast_) return false;
@@ -76,8 +85,9 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
         const RigidContact& c = contacts_[i];
         if (places_[i] == kFree || !c.resolve || c.count == 0) continue;
         const float surprised = std::max(surprise_[c.bodyA], surprise_[c.bodyB]);
-        if (!c.foreseen && surprised == 0) continue;
-        const float travel = std::max(c.foreseen ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
+        const bool hit = hits(c, dt);
+        if (!hit && surprised == 0) continue;
+        const float travel = std::max(hit ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
         const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
         if (!(a + b > 0)) continue;
         const auto gain = [&](double share) {
@@ -110,17 +120,62 @@ bool Collider::surprise(Index index, float gain, double dt)
     return true;
 }
 
+/// Where a hit throws a body out of the way it was expected to take, what lies there is not known: it goes no farther
+/// than its boxes do.
+float Collider::withinBox(Index body, const Vec2& move, double dt) const
+{
+    const Pose& pose = poses_[body];
+    const double room = static_cast<double>(std::max(0.1F * typical_, room_[body]));
+    const Vec2 expected(dt * static_cast<double>(pose.velocityX), dt * static_cast<double>(pose.velocityY));
+    double part = 1;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double most = move[axis] > 0 ? std::max(expected[axis], 0.0) : std::max(-expected[axis], 0.0);
+        if (std::abs(move[axis]) > most + room) part = std::min(part, (most + room) / std::abs(move[axis]));
+    }
+    return static_cast<float>(part);
+}
+
+/// What overlaps already is pushed apart, but a centre that comes to the other side would be pushed on.
+float Collider::untilCentrePasses(const RigidContact& c, const Vec2& relativeMove) const
+{
+    constexpr double kCore = 0.5;  // of the centre's distance from the surface: it comes no nearer in one step
+    const Pose &poseA = poses_[c.bodyA], &poseB = poses_[c.bodyB];
+    const Vec2f n = turned(poseA.turn, c.normal), on = turned(poseA.turn, c.onA[0]);
+    const Vec2 normal(n.x, n.y), toB(poseB.x - poseA.x - on.x, poseB.y - poseA.y - on.y);
+    const double closing = -normal.dot(relativeMove);
+    double away = std::numeric_limits<double>::infinity();
+    if (bodies_[c.bodyB].moves) away = std::min(away, toB.dot(normal));
+    if (bodies_[c.bodyA].moves) away = std::min(away, Vec2(on.x, on.y).dot(normal));
+    return away > 0 && closing > kCore * away ? static_cast<float>(kCore * away / closing) : 1.0F;
+}
+
 void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves,
                               const std::vector<double>& turns, double dt) const
 {
     allowed.assign(bodies_.size(), 1.0F);
+    if (contacts_.empty()) return;
+    // What another moving body has hit must give way to it.
+    std::vector<std::uint8_t> driven(bodies_.size(), 0);
+    for (Index i = 0; i < contacts_.size(); ++i) {
+        const RigidContact& c = contacts_[i];
+        if (places_[i] == kFree || c.count == 0) continue;
+        if (poses_[c.bodyA].travel > 0 && poses_[c.bodyB].travel > 0) driven[c.bodyA] = driven[c.bodyB] = 1;
+    }
+    for (Index i = 1; i < bodies_.size(); ++i)
+        if (bodies_[i].moves && driven[i] == 0) allowed[i] = withinBox(i, moves[i], dt);
     for (Index i = 0; i < contacts_.size(); ++i) {
         const RigidContact& c = contacts_[i];
         if (places_[i] == kFree || !c.resolve) continue;
         const Vec2 relativeMove = moves[c.bodyB] - moves[c.bodyA];
         const float thinner = kFast * std::min(parts_[c.partA].thickness, parts_[c.partB].thickness);
         if (!(relativeMove.squaredNorm() > thinner * thinner)) continue;
-        if (c.nearest() <= 0) continue;  // is held by its points
+        if (fromBehind(c)) continue;
+        if (c.nearest() <= 0) {
+            const float part = c.count > 0 ? untilCentrePasses(c, relativeMove) : 1.0F;
+            for (const Index body : {c.bodyA, c.bodyB})
+                if (bodies_[body].moves) allowed[body] = std::min(allowed[body], part);
+            continue;
+        }
         Pose a = poses_[c.bodyA], b = poses_[c.bodyB];
         const auto actual = [&](Pose& pose, Index body) {
             pose.velocityX = clamped(moves[body].x() / dt), pose.velocityY = clamped(moves[body].y() / dt);

@@ -1,32 +1,12 @@
 // Touching points of two rounded convex parts, by separating axes and clipping (Catto, "Contact manifolds", GDC 2007).
-#include "part.hpp"
+#include "manifold.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace jet::physics {
 
-namespace {
-
-/// B's corners and normals in A's frame.
-struct Placed {
-    int count;
-    float radius;
-    Vec2f corners[kMostCorners], normals[kMostCorners];
-
-    Placed(const Part& part, const Relative& at) : count(part.count), radius(part.radius)
-    {
-        for (int i = 0; i < count; ++i) {
-            corners[i] = at.move + turned(at.turn, part.corners[i]);
-            normals[i] = turned(at.turn, part.normals[i]);
-        }
-    }
-};
-
-struct Nearest {
-    Vec2f onA, onB;
-    float alongA = 0, alongB = 0;  // 0..1
-};
+namespace manifold {
 
 /// The nearest points of the segments p1 q1 and p2 q2 (Ericson, "Real-Time Collision Detection", 5.1.9).
 Nearest nearestOfSegments(Vec2f p1, Vec2f q1, Vec2f p2, Vec2f q2)
@@ -179,7 +159,7 @@ Manifold clip(Vec2f r1, Vec2f r2, Vec2f normal, float radiusR, Vec2f i1, Vec2f i
     return m;
 }
 
-Manifold sides(const Part& a, const Placed& b, const Relative& at, float reach)
+static Manifold sides(const Part& a, const Placed& b, const Relative& at, float reach)
 {
     float separationA = 0, separationB = 0;
     int sideA = farthestSide(a, b, separationA);
@@ -210,7 +190,9 @@ Manifold sides(const Part& a, const Placed& b, const Relative& at, float reach)
     return clip(a1, a2, a.normals[sideA], a.radius, b1, b2, b.radius, at, reach, false, {sideA, nextA, sideB, nextB});
 }
 
-}  // namespace
+}  // namespace manifold
+
+using namespace manifold;
 
 Manifold collide(const Part& a, const Part& b, const Relative& at, float reach)
 {

@@ -25,9 +25,19 @@ inline Vec2f turned(Vec2f turn, Vec2f v) { return {turn.x * v.x - turn.y * v.y, 
 inline Vec2f turnedBack(Vec2f turn, Vec2f v) { return {turn.x * v.x + turn.y * v.y, turn.x * v.y - turn.y * v.x}; }
 
 inline constexpr int kMostCorners = 8;
+inline constexpr std::uint32_t kNoOutline = 0xffffffffU;
+
+/// What of a part is the outside of its body: parts of drawn outlines and walls of chains only (outlined.hpp).
+struct PartOutline {
+    std::uint8_t inner = 0;  // bits: the side from corner i to i + 1 is none that can be touched
+    bool wall = false;       // a side of a chain: solid behind it
+    // Directions a corner may be touched from lie between these, in the body's frame; null: none.
+    Vec2f before[kMostCorners], after[kMostCorners];
+};
 
 struct Part {
-    std::uint32_t body = 0;       // index of the rigid body
+    std::uint32_t body = 0;  // index of the rigid body
+    std::uint32_t outline = kNoOutline;
     std::uint8_t count = 0;       // corners: 1 circle, 2 capsule, 3.. polygon
     float radius = 0;             // units
     float length = 0;             // typical size, units: tolerances are fractions of it

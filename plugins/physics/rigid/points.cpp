@@ -1,5 +1,6 @@
 // The points of a pair: kept while its bodies hardly move against each other, else found anew.
 #include "collider.hpp"
+#include "outlined.hpp"
 
 #include <cmath>
 
@@ -36,6 +37,25 @@ float Collider::closingSpeed(const RigidContact& c) const
     return std::sqrt(dx * dx + dy * dy) + std::abs(b.omega - a.omega) * reach;
 }
 
+Manifold Collider::meet(const RigidContact& c, const Relative& at, float reach) const
+{
+    const Part &a = parts_[c.partA], &b = parts_[c.partB];
+    if (a.outline == kNoOutline && b.outline == kNoOutline) return physics::collide(a, b, at, reach);
+    return collideOutlined(a, weld_.outlineOf(a), b, weld_.outlineOf(b), at, reach);
+}
+
+/// Is one of them behind the other, which is solid from the front only? Nothing stops it there.
+bool Collider::fromBehind(const RigidContact& c) const
+{
+    const Part &a = parts_[c.partA], &b = parts_[c.partB];
+    const auto behind = [](const Part& wall, Vec2f other) { return dot(wall.normals[0], other - wall.corners[0]) < 0; };
+    const Relative at = relative(c.bodyA, c.bodyB);
+    const PartOutline *outlineA = weld_.outlineOf(a), *outlineB = weld_.outlineOf(b);
+    if (outlineA != nullptr && outlineA->wall) return behind(a, at.move + turned(at.turn, b.centre));
+    if (outlineB != nullptr && outlineB->wall) return behind(b, turnedBack(at.turn, a.centre - at.move));
+    return false;
+}
+
 bool Collider::update(RigidContact& c, double dt) const
 {
     c.due = false;
@@ -49,7 +69,7 @@ bool Collider::update(RigidContact& c, double dt) const
     if (!reuse(c, at, reach)) {
         if ((travel > 0.1F * shorter || c.count == 0) && apart(c.partA, c.partB) && apart(c.partB, c.partA))
             return false;
-        renew(c, physics::collide(a, b, at, reach), at, reach);
+        renew(c, meet(c, at, reach), at, reach);
         if (c.count > 0 && c.nearest() > 0 && travel > kFast * shorter) c.count = 0;
         if (c.count == 0 && c.resolve && travel > kFast * shorter) foresee(c, at, dt);
         decideSide(c);

@@ -7,7 +7,7 @@ namespace jet::physics {
 
 namespace {
 
-constexpr double kContactHertz = 60, kHertzPerSubstepRate = 0.25, kContactDamping = 10;
+constexpr double kContactHertz = 100, kHertzPerSubstepRate = 0.25, kContactDamping = 10;
 constexpr double kJointHertz = 80, kJointHertzPerSubstepRate = 1.0 / 3, kJointDamping = 2;
 // Relaxing once leaves piles of a hundred rows ringing for seconds; twice lets them rest, which pays for itself.
 constexpr int kRelaxPasses = 2;

@@ -1,5 +1,6 @@
 #include "stage.hpp"
 
+#include "drawn.hpp"
 #include "validation.hpp"
 
 #include <chrono>
@@ -29,11 +30,36 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
 
 }  // namespace
 
+namespace {
+
+DrawnAs drawnAs(const BodyCommon& common)
+{
+    if (common.sensor) return DrawnAs::Region;
+    return common.fixed ? DrawnAs::Walls : DrawnAs::Solid;
+}
+
+/// About the centre of mass.
+std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Vec2& centre, double length)
+{
+    std::vector<DrawnPart> parts;
+    if (!def.borders.empty()) parts = drawnParts(def.borders, centre, length, drawnAs(def.common));
+    for (const ShapeDef& shape : def.shapes) {
+        if (shape.kind == ShapeDef::Kind::Chain) {
+            for (DrawnPart& part : chainParts(shape.points, centre, length)) parts.push_back(std::move(part));
+            continue;
+        }
+        std::vector<Vec2> corners = shape.points;
+        for (Vec2& at : corners) at -= centre;
+        parts.emplace_back().part = makePart(corners.data(), static_cast<int>(corners.size()),
+                                             shape.kind == ShapeDef::Kind::Polygon ? 0 : shape.radius);
+    }
+    return parts;
+}
+
+}  // namespace
+
 bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
 {
-    // Borders may be concave and have holes: they go by points and walls.
-    if (def.shapes.empty() || !def.borders.empty()) return false;
-    const std::vector<ShapeDef>& shapes = def.shapes;
     const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
     body.node = node, body.handle = handle;
@@ -45,14 +71,11 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
         const Vec2 up = def.common.oneSided.normalized();
         body.oneSidedX = static_cast<float>(up.x()), body.oneSidedY = static_cast<float>(up.y());
     }
+    const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
+    if (drawn.empty()) return false;
     bodyOf_.resize(std::max<std::size_t>(bodyOf_.size(), handle + 1), 0);
     bodyOf_[handle] = collider_.addBody(body);
-    for (const ShapeDef& shape : shapes) {
-        std::vector<Vec2> corners = shape.points;
-        for (Vec2& at : corners) at -= state.nodes.position[node];
-        collider_.addPart(makePart(corners.data(), static_cast<int>(corners.size()),
-                                   shape.kind == ShapeDef::Kind::Polygon ? 0 : shape.radius));
-    }
+    for (const DrawnPart& part : drawn) collider_.addPart(part.part, part.outlined ? &part.outline : nullptr);
     return true;
 }
 
@@ -82,6 +105,34 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
     if (!def.collide && joint.a != 0 && joint.b != 0) collider_.exclude(joint.a, joint.b);
     joints_.push_back(joint);
     return static_cast<Index>(joints_.size() - 1);
+}
+
+void RigidStage::setJoint(const State& state, Index index, const JointDef& def)
+{
+    Joint& joint = joints_[index];
+    const JointDef old = joint.def;
+    joint.def = def;
+    joint.def.kind = old.kind, joint.def.a = old.a, joint.def.b = old.b;
+    joint.def.groundA = old.groundA, joint.def.groundB = old.groundB;
+    if (def.length >= 0 && old.kind != JointDef::Kind::Pulley) joint.length = def.length;
+    if (const double length = def.axis.norm(); length > 0) {
+        const Vec2 axis = def.axis / length;
+        joint.localAxis = joint.a == 0 ? axis : unrotated(state.nodes.rotation[collider_.bodies()[joint.a].node], axis);
+    }
+    if (!joint.lives() || joint.a == 0 || joint.b == 0 || old.collide == def.collide) return;
+    if (def.collide) {
+        collider_.include(joint.a, joint.b);
+    } else {
+        collider_.exclude(joint.a, joint.b);
+    }
+    forgetPairs();
+}
+
+void RigidStage::forgetPairs()
+{
+    if (active_ == Active::Single) single_.release(collider_);
+    if (active_ == Active::Double) double_.release(collider_);
+    collider_.forgetPairs();
 }
 
 void RigidStage::removeJoint(Index index)
@@ -180,6 +231,7 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     const StepShape shape = shapeOf(settings, dt, large);
     pool_.setThreads(settings.threads);
     solver.begin(collider_.bodies().size(), shape, pool_);
+    substeps_ = shape.substeps;
     load(solver, state);
     look(solver, state, settings, dt, stats);
     const auto start = std::chrono::steady_clock::now();
@@ -242,6 +294,7 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
     activate(false);
     StepShape shape = shapeOf(settings, dt, false);
     shape.h = h;
+    substeps_ = static_cast<double>(std::lround(dt / h));
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * h;
     pool_.setThreads(settings.threads);
     double_.begin(collider_.bodies().size(), shape, pool_);
@@ -339,13 +392,14 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
         const Pose& pose = collider_.poses()[c.bodyA];
         const Vec2f normal = turned(pose.turn, c.normal);
         for (int k = 0; k < c.count; ++k) {
+            if (c.resolve && !(c.impulse[k] > 0) && c.separation[k] > c.slop) continue;  // only near
             const Vec2f on = turned(pose.turn, c.onA[k]);
             Contact contact;
             contact.bodyA = b, contact.bodyB = a;
             contact.point = Vec2(pose.x + on.x, pose.y + on.y);
             contact.normal = Vec2(normal.x, normal.y);
             contact.penetration = -static_cast<double>(c.separation[k]);
-            contact.impulse = static_cast<double>(c.count > 1 ? c.impulse[k] : c.stepImpulse);
+            contact.impulse = substeps_ * static_cast<double>(c.impulse[k]);
             reports.push_back(contact);
         }
         touching.push_back((static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b));

@@ -21,6 +21,10 @@ public:
     const Joint& joint(Index index) const { return joints_[index]; }
     Index jointCount() const { return static_cast<Index>(joints_.size()); }
     void removeJoint(Index);
+    /// All but the kind and the anchors.
+    void setJoint(const State&, Index, const JointDef&);
+    /// They are sought afresh, and their impulses are forgotten.
+    void forgetPairs();
 
     /// The whole step, where nothing else moves: `forces` and torques lie in the nodes.
     void step(State&, const WorldSettings&, double dt, StepStats&);
@@ -36,6 +40,8 @@ public:
     const Collider& collider() const { return collider_; }
     /// Something about the body was changed from outside.
     void disturb(Index handle);
+    /// Bodies that stand were moved or changed.
+    void rearrange() { collider_.rearrange(); }
     std::size_t bytes() const;
 
     template <class Archive>
@@ -47,7 +53,11 @@ public:
         if (active_ == Active::Double) double_.archive(with, collider_);
         for (Joint& joint : joints_) {
             with(joint.removed), with(joint.broken), with(joint.impulse);
-            with(joint.def.driven), with(joint.def.motorSpeed), with(joint.localA), with(joint.localB);
+            with(joint.localA), with(joint.localB), with(joint.localAxis), with(joint.length);
+            JointDef& def = joint.def;
+            with(def.limited), with(def.lower), with(def.upper), with(def.driven), with(def.motorSpeed);
+            with(def.motorVelocity), with(def.maxForce), with(def.maxTorque), with(def.hertz);
+            with(def.dampingRatio), with(def.ratio), with(def.breakForce), with(def.collide);
         }
     }
     void rebuild() { collider_.rebuild(); }
@@ -84,6 +94,7 @@ private:
     std::vector<Vec2> start_, moves_;
     std::vector<double> startAngle_, turns_;
     std::vector<float> allowed_;
+    double substeps_ = 1;  // of the last step
 };
 
 }  // namespace jet::physics

@@ -1,0 +1,70 @@
+// Ray casts, shape casts, overlaps and nearest points over all bodies: a tree of boxes, then each outline or round
+// shape exactly. Circles and capsules are round here, whatever outline they are drawn with.
+#pragma once
+
+#include "query.hpp"
+#include "query_tree.hpp"
+#include "state.hpp"
+
+#include <jet/physics.hpp>
+
+namespace jet::physics {
+
+class Queries {
+public:
+    /// After a body was added.
+    void addSoft(Index body);
+    void addRigid(const State&, Index body, const RigidBodyDef&);
+
+    /// Bodies have moved, come or gone since the last query.
+    void outdate() { outdated_ = true; }
+    /// Points and readings must be true.
+    void update(const State&);
+
+    std::optional<CastHit> rayCast(const State&, const Vec2& from, const Vec2& way, const QueryFilter&) const;
+    std::optional<CastHit> shapeCast(const State&, const ShapeDef&, const Vec2& way, const QueryFilter&) const;
+    std::vector<BodyHandle> overlapping(const State&, const Box&, const QueryFilter&) const;
+    std::optional<CastHit> nearest(const State&, const Vec2& point, double reach, const QueryFilter&) const;
+    bool contains(const State&, Index body, const Vec2& point) const;
+
+    std::size_t bytes() const { return items_.capacity() * sizeof(Item) + boxes_.capacity() * (sizeof(Box) + 100); }
+
+private:
+    /// An outline of a body, or a round shape of it.
+    struct Item {
+        Index body = 0;
+        bool round = false, whole = false;  // whole: all walls of the body
+        Range walls;                        // of a shape
+        Vec2 a, b;                          // round: the segment in the body's frame
+        double radius = 0;
+    };
+    /// From the scene to the frame the item's points are in.
+    struct Frame {
+        Vec2 at{0, 0}, turn{1, 0};
+        Vec2 in(const Vec2& p) const { return unrotated(turn, p - at); }
+        Vec2 out(const Vec2& p) const { return at + rotated(turn, p); }
+    };
+
+    static bool seen(const State&, Index body, const QueryFilter&);
+    static Frame frameOf(const State&, const Item&);
+    static Range wallsOf(const State&, const Item&);
+    Box boxOf(const State&, const Item&) const;
+    /// Calls visit(edge) for each side of the item that may meet the region, which is in the item's frame.
+    template <class Visit>
+    static void eachEdge(const State&, const Item&, const Box& region, Visit&& visit);
+    static bool inside(const State&, const Item&, const Vec2& at);
+    static std::optional<QueryHit> castRay(const State&, const Item&, const Vec2& from, const Vec2& way, double most);
+    static std::optional<QueryHit> castShape(const State&, const Item&, const CastShape&, const Vec2& way);
+    static bool overlaps(const State&, const Item&, const CastShape&);
+    static bool meetsBox(const State&, const Item&, const Box&);
+    /// Fraction is the distance.
+    static std::optional<QueryHit> nearestOf(const State&, const Item&, const Vec2& point, double reach);
+
+    std::vector<Item> items_;
+    std::vector<Index> firstItem_;  // [bodies]
+    std::vector<Box> boxes_;
+    QueryTree tree_;
+    bool outdated_ = true;
+};
+
+}  // namespace jet::physics

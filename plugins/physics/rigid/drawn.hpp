@@ -1,0 +1,26 @@
+// Parts of bodies that are drawn as closed borders or open chains.
+#pragma once
+
+#include "decompose.hpp"
+
+#include <jet/physics.hpp>
+
+namespace jet::physics {
+
+struct DrawnPart {
+    Part part;
+    PartOutline outline;
+    bool outlined = false;
+};
+
+enum class DrawnAs : std::uint8_t {
+    Solid,   ///< convex parts that glide over each other's seams
+    Region,  ///< convex parts, all of them felt everywhere: sensors
+    Walls    ///< its sides, each solid behind: what never moves
+};
+
+/// `centre`: origin of the parts' frame, scene units. `length`: typical size of the body. Empty without area.
+std::vector<DrawnPart> drawnParts(const std::vector<Ring>& borders, const Vec2& centre, double length, DrawnAs);
+std::vector<DrawnPart> chainParts(const std::vector<Vec2>& line, const Vec2& centre, double length);
+
+}  // namespace jet::physics

@@ -1,0 +1,44 @@
+// The steps of collide() that outlined parts share (outlined.cpp).
+#pragma once
+
+#include "part.hpp"
+
+namespace jet::physics::manifold {
+
+/// B's corners and normals in A's frame.
+struct Placed {
+    int count;
+    float radius;
+    Vec2f corners[kMostCorners], normals[kMostCorners];
+
+    Placed(const Part& part, const Relative& at) : count(part.count), radius(part.radius)
+    {
+        for (int i = 0; i < count; ++i) {
+            corners[i] = at.move + turned(at.turn, part.corners[i]);
+            normals[i] = turned(at.turn, part.normals[i]);
+        }
+    }
+};
+
+struct Nearest {
+    Vec2f onA, onB;
+    float alongA = 0, alongB = 0;  // 0..1
+};
+
+Nearest nearestOfSegments(Vec2f p1, Vec2f q1, Vec2f p2, Vec2f q2);
+
+ManifoldPoint pointOf(Vec2f onA, Vec2f onB, const Relative& at, float separation, int featureA, int featureB);
+
+/// One point between two corners (or centres) that lie apart.
+Manifold betweenPoints(Vec2f a, Vec2f b, float radiusA, float radiusB, const Relative& at, float reach, Vec2f fallback,
+                       int featureA, int featureB);
+
+/// What was found in B's frame as (B, A), the other way round.
+Manifold reversed(Manifold m, const Relative& at);
+Relative inverse(const Relative& at);
+
+/// The incident side clipped to the reference side; `flipped`: the reference is B's.
+Manifold clip(Vec2f r1, Vec2f r2, Vec2f normal, float radiusR, Vec2f i1, Vec2f i2, float radiusI, const Relative& at,
+              float reach, bool flipped, const int (&features)[4]);
+
+}  // namespace jet::physics::manifold

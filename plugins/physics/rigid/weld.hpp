@@ -1,0 +1,29 @@
+// Flush sides of bodies that never move, as tiles of a level have them, become one outline: what glides over them feels
+// no seam. Sides are flush when they have both ends in common; tiles of different size are not welded.
+#pragma once
+
+#include "contact.hpp"
+
+#include <vector>
+
+namespace jet::physics {
+
+class Weld {
+public:
+    /// The outline a part has by itself, or none; one call a part, in their order.
+    void add(const PartOutline*);
+    /// Works out the outlines of all parts from where their bodies are.
+    void run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const State&, float typicalLength);
+
+    const PartOutline* outlineOf(const Part& part) const
+    {
+        return part.outline == kNoOutline ? nullptr : &outlines_[part.outline];
+    }
+    std::size_t bytes() const { return (own_.capacity() + outlines_.capacity()) * sizeof(PartOutline); }
+
+private:
+    std::vector<PartOutline> own_, outlines_;
+    std::vector<std::uint32_t> ownOf_;  // [parts] into own_, or kNoOutline
+};
+
+}  // namespace jet::physics

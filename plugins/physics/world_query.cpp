@@ -1,0 +1,51 @@
+// Queries over all bodies.
+#include "validation.hpp"
+#include "world.hpp"
+
+namespace jet::physics {
+
+const Queries& World::queries() const
+{
+    refresh();
+    const_cast<World*>(this)->queries_.update(state_);  // a cache of what the nodes say
+    return queries_;
+}
+
+std::optional<CastHit> World::rayCast(const Vec2& from, const Vec2& to, const QueryFilter& filter) const
+{
+    requirePlace("a ray's start", from);
+    requirePlace("a ray's end", to);
+    return queries().rayCast(state_, from, to - from, filter);
+}
+
+std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, const QueryFilter& filter) const
+{
+    validate(shape);
+    requirePlace("a shape's way", way);
+    return queries().shapeCast(state_, shape, way, filter);
+}
+
+std::vector<BodyHandle> World::overlapping(const Box& box, const QueryFilter& filter) const
+{
+    if (box.isNull()) return {};
+    requirePlace("a box's corner", box.min);
+    requirePlace("a box's corner", box.max);
+    return queries().overlapping(state_, box, filter);
+}
+
+std::optional<CastHit> World::nearest(const Vec2& point, double reach, const QueryFilter& filter) const
+{
+    requirePlace("a query's point", point);
+    requireFinite("a query's reach", {reach});
+    return queries().nearest(state_, point, reach, filter);
+}
+
+bool World::contains(BodyHandle handle, const Vec2& point) const
+{
+    requireBelow("body", handle, bodyCount());
+    if (!isFinite(point)) return false;
+    refresh();
+    return queries_.contains(state_, handle, point);
+}
+
+}  // namespace jet::physics
