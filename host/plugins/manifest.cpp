@@ -32,7 +32,7 @@ std::vector<std::string> fieldsOf(ContributionKind kind)
     };
     switch (kind) {
     case ContributionKind::Tool: add({"icon", "shortcut"}); break;
-    case ContributionKind::Panel: add({"icon", "area"}); break;
+    case ContributionKind::Panel: add({"icon", "shortcut", "area"}); break;
     case ContributionKind::Command: add({"icon", "shortcut", "menu"}); break;
     case ContributionKind::Importer:
     case ContributionKind::Exporter: add({"extensions", "mimeTypes"}); break;

@@ -8,6 +8,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QSettings>
+#include <QShortcut>
 
 #include <algorithm>
 
@@ -50,7 +51,20 @@ DockArea::Dock& DockArea::createDock(Contribution panel)
     Dock& dock = *docks_.back();
     connect(widget, &QDockWidget::visibilityChanged, this,
             [this, &dock](bool visible) { fillWhenSeen(dock, visible); });
+    if (!dock.panel.shortcut.empty()) {
+        auto* shortcut = new QShortcut(QKeySequence::fromString(QString::fromStdString(dock.panel.shortcut)), &window_);
+        connect(shortcut, &QShortcut::activated, this, [this, &dock] { bringUp(dock); });
+    }
     return dock;
+}
+
+void DockArea::bringUp(Dock& dock)
+{
+    if (dock.gone) return;
+    dock.widget->show();
+    dock.widget->raise();
+    fillWhenSeen(dock, true);
+    if (QWidget* content = dock.widget->widget()) content->setFocus(Qt::ShortcutFocusReason);
 }
 
 void DockArea::empty(Dock& dock)

@@ -65,6 +65,7 @@ private:
     };
 
     Dock& createDock(Contribution panel);
+    void bringUp(Dock& dock);
     void empty(Dock& dock);
     void fillWhenSeen(Dock& dock, bool visible);
     void placeDefault();

@@ -106,6 +106,7 @@ void MainWindow::createActions()
     actions_.add(edits_.actions());
     actions_.add(player_.actions());
     actions_.add(views_.actions());
+    views_.follow(*this);
     actions_.add(reloader_.actions());
     actions_.add({
         {"scene.new", QT_TRANSLATE_NOOP("Actions", "&New scene"), "plus", "", newScene},

@@ -57,6 +57,19 @@ void ViewController::frameSelection()
     view.frame(box.isNull() ? scene.root().bounds() : box);
 }
 
+void ViewController::follow(Editor& editor)
+{
+    shown_ = editor.events().subscribe<ShowArea>(nullptr, [this, &editor](const ShowArea& wish) {
+        if (wish.area.isNull()) return;
+        editor.openScene(*wish.scene);
+        SceneView* view = documents_.currentView();
+        if (!view) return;
+        const Vec2 atLeast = 0.5 * Vec2(view->width(), view->height());  // 1:1
+        const Vec2 half = (0.5 * wish.area.size()).cwiseMax(atLeast);
+        view->frame(Box(wish.area.center() - half, wish.area.center() + half));
+    });
+}
+
 void ViewController::setGrid(bool on)
 {
     grid_ = on;

@@ -5,6 +5,8 @@
 #include "window/dock_area.hpp"
 #include "window/documents.hpp"
 
+#include <jet/find.hpp>
+
 namespace jet::host {
 
 class ViewController final : public QObject {
@@ -14,6 +16,8 @@ public:
     ViewController(Documents& documents, DockArea& docks, QObject* parent);
 
     std::vector<ActionSpec> actions();
+    /// Shows what panels ask to be shown (jet/find.hpp).
+    void follow(Editor& editor);
     /// Gives a new view the present settings.
     void prepare(SceneView& view) const { view.setGridVisible(grid_); }
     void restore(QSettings& settings);
@@ -26,6 +30,7 @@ private:
     Documents& documents_;
     DockArea& docks_;
     bool grid_ = true;
+    Subscription shown_;
 };
 
 }  // namespace jet::host

@@ -1,5 +1,6 @@
 #include <jet/arrange.hpp>
 #include <jet/editor.hpp>
+#include <jet/symbols.hpp>
 
 #include <algorithm>
 #include <unordered_set>
@@ -200,6 +201,7 @@ ItemList ungroupItems(Transaction& edit, std::span<const Item* const> items)
     ItemList freed;
     for (const Item* group : editableOnes(items)) {
         if (!group->is<GroupItem>()) continue;
+        if (isInstance(*group)) detachInstance(edit, *group);  // its members leave this instance, not the symbol
         while (!group->children().empty()) {
             const Item& member = *group->children().front();
             freed.push_back(&member);

@@ -1,6 +1,7 @@
 // The tree and the selection of a scene, changes made and taken back, and who is told. Where items are:
 // items_query.cpp.
 #include "scene_state.hpp"
+#include "symbol_links.hpp"
 
 #include <algorithm>
 
@@ -76,8 +77,14 @@ ItemsCenter::Private::Private(Scene& s, EventsCenter& e, Catalog& c)
 {
     Item::Mutator::setName(*root, "Top group");
     byId.insert(kRootId.value, root.get());
+    symbols = std::make_unique<Item>(kSymbolsId, GroupItem::type);
+    Item::Mutator::setName(*symbols, "Symbols");
+    byId.insert(kSymbolsId.value, symbols.get());
+    links = std::make_unique<Links>(*this);
     ordered = std::make_shared<const std::vector<ItemId>>();
 }
+
+ItemsCenter::Private::~Private() = default;
 
 Item& ItemsCenter::Private::get(ItemId id)
 {
@@ -96,27 +103,42 @@ void ItemsCenter::Private::own(const Item& item) const
 void ItemsCenter::Private::ownChangeable(const Item& item) const
 {
     own(item);
-    if (item.id() == kRootId) throw Failure(Error("the top group of a scene cannot be changed; change what is in it"));
+    if (!item.parent()) throw Failure(Error("the top group of a scene cannot be changed; change what is in it"));
 }
 
-void ItemsCenter::Private::enlist(Item& subtree)
+bool ItemsCenter::Private::isOfSymbols(const Item& item) const
+{
+    return !symbols->children().empty() && &topGroup(item) == symbols.get();
+}
+
+void ItemsCenter::Private::enlist(Item& subtree, bool ofSymbols)
 {
     orderValid = false;
-    subtree.walk([this](const Item& constant) {
+    subtree.walk([&](const Item& constant) {
         Item& item = const_cast<Item&>(constant);
         byId.insert(item.id().value, &item);
         nextId = std::max(nextId, item.id().value + 1);
-        if (indexed) index.add(item);
+        links->enlisted(item);
+        if (ofSymbols) {
+            ++symbolItems;
+        } else if (indexed) {
+            index.add(item);
+        }
     });
 }
 
-void ItemsCenter::Private::delist(const Item& subtree)
+void ItemsCenter::Private::delist(const Item& subtree, bool ofSymbols)
 {
     orderValid = false;
     bool selectedGone = false;
     subtree.walk([&](const Item& item) {
         byId.erase(item.id().value);
-        if (indexed) index.remove(const_cast<Item&>(item));
+        links->delisted(item);
+        if (ofSymbols) {
+            --symbolItems;
+        } else if (indexed) {
+            index.remove(const_cast<Item&>(item));
+        }
         scene.dropEffectStates(item.id());
         selectedGone = selected.erase(item.id().value) > 0 || selectedGone;
     });
@@ -127,15 +149,17 @@ void ItemsCenter::Private::delist(const Item& subtree)
 
 void ItemsCenter::Private::insert(ItemId parent, std::size_t place, std::unique_ptr<Item> item)
 {
-    enlist(*item);
-    Item::Mutator::insert(get(parent), place, std::move(item));
+    Item& holder = get(parent);
+    enlist(*item, &topGroup(holder) == symbols.get());
+    Item::Mutator::insert(holder, place, std::move(item));
 }
 
 std::unique_ptr<Item> ItemsCenter::Private::take(ItemId id)
 {
     Item& item = get(id);
-    auto taken = Item::Mutator::take(get(item.parent()->id()), item.index());
-    delist(*taken);
+    Item& holder = get(item.parent()->id());
+    auto taken = Item::Mutator::take(holder, item.index());
+    delist(*taken, &topGroup(holder) == symbols.get());
     return taken;
 }
 
@@ -152,6 +176,14 @@ void ItemsCenter::Private::setPath(Item& item, const Path& path)
     if (indexed) index.changed(item);
 }
 
+void ItemsCenter::Private::setProperty(Item& item, const std::string& property, const Value& value)
+{
+    const bool link = property == kLinkSymbol;
+    if (link) links->delisted(item);
+    Item::Mutator::setProperty(item, property, value);
+    if (link) links->enlisted(item);
+}
+
 void ItemsCenter::Private::apply(Change& change)
 {
     using M = Item::Mutator;
@@ -161,7 +193,7 @@ void ItemsCenter::Private::apply(Change& change)
             [&](ItemRemoved& c) { c.detached = take(c.item); },
             [&](ItemMoved& c) { moveItem(c.oldParent, c.oldIndex, c.newParent, c.newIndex); },
             [&](PathChanged& c) { setPath(get(c.item), c.after); },
-            [&](PropertyChanged& c) { M::setProperty(get(c.item), c.property, c.after); },
+            [&](PropertyChanged& c) { setProperty(get(c.item), c.property, c.after); },
             [&](TypeChanged& c) { M::setType(get(c.item), c.after); },
             [&](EffectAdded& c) {
                 auto& effects = M::effects(get(c.item));
@@ -181,6 +213,7 @@ void ItemsCenter::Private::apply(Change& change)
 
 void ItemsCenter::Private::make(Change change)
 {
+    links->before(change);
     if (changes.size() == changes.capacity()) changes.reserve(2 * changes.size() + 1);  // what is made gets recorded
     apply(change);
     changes.push_back(std::move(change));
@@ -195,7 +228,7 @@ void ItemsCenter::Private::revert(Change& change)
                    [&](ItemRemoved& c) { insert(c.parent, c.index, std::move(c.detached)); },
                    [&](ItemMoved& c) { moveItem(c.newParent, c.newIndex, c.oldParent, c.oldIndex); },
                    [&](PathChanged& c) { setPath(get(c.item), c.before); },
-                   [&](PropertyChanged& c) { M::setProperty(get(c.item), c.property, c.before); },
+                   [&](PropertyChanged& c) { setProperty(get(c.item), c.property, c.before); },
                    [&](TypeChanged& c) { M::setType(get(c.item), c.before); },
                    [&](EffectAdded& c) {
                        auto& effects = M::effects(get(c.item));
@@ -222,6 +255,7 @@ void ItemsCenter::Private::revertTo(std::size_t count)
         revert(changes.back());
         changes.pop_back();
     }
+    links->reverted(count);
 }
 
 void ItemsCenter::Private::revertLevel(std::size_t level)
@@ -236,6 +270,7 @@ void ItemsCenter::Private::closeLevels(std::size_t level)
 {
     levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(level), levels.end());
     if (!levels.empty()) return;
+    links->close();
     if (indexed) index.settle();
     tell();
 }
@@ -257,8 +292,10 @@ void ItemsCenter::Private::setSelection(std::vector<ItemId> items)
     if (items == selection()) return;
     std::unordered_set<std::uint64_t> known;
     known.reserve(items.size());
-    std::erase_if(items,
-                  [&](ItemId id) { return id == kRootId || !byId.find(id.value) || !known.insert(id.value).second; });
+    std::erase_if(items, [&](ItemId id) {
+        const Item* item = byId.find(id.value);
+        return !item || !item->parent() || isOfSymbols(*item) || !known.insert(id.value).second;
+    });
     if (items == selection()) return;
     ordered = std::make_shared<const std::vector<ItemId>>(std::move(items));
     selected = std::move(known);
@@ -373,7 +410,7 @@ void ItemsCenter::abandon()
 
 const Item& ItemsCenter::root() const { return *d_->root; }
 const Item* ItemsCenter::find(ItemId id) const { return d_->byId.find(id.value); }
-std::size_t ItemsCenter::itemCount() const { return d_->byId.size() - 1; }
+std::size_t ItemsCenter::itemCount() const { return d_->byId.size() - 2 - d_->symbolItems; }
 const std::vector<ItemId>& ItemsCenter::selection() const { return d_->selection(); }
 bool ItemsCenter::isSelected(ItemId id) const { return d_->selected.contains(id.value); }
 

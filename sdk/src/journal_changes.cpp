@@ -248,11 +248,13 @@ std::string encodeChanges(const Scene& scene, std::span<const Change> changes, I
 class ChangeReplay {
 public:
     explicit ChangeReplay(const Scene& scene)
-        : catalog_(scene.catalog()), root_(kRootId, GroupItem::type), settings_(scene.settings()),
-          materials_(scene.materials())
+        : catalog_(scene.catalog()), root_(kRootId, GroupItem::type), symbols_(kSymbolsId, GroupItem::type),
+          settings_(scene.settings()), materials_(scene.materials())
     {
         byId_.emplace(kRootId.value, &root_);
+        byId_.emplace(kSymbolsId.value, &symbols_);
         copyChildren(scene.root(), root_);
+        copyChildren(*scene.items().find(kSymbolsId), symbols_);
     }
 
     void run(std::string_view bytes)
@@ -269,6 +271,7 @@ public:
         SceneBuilder builder(*made);
         for (const auto& [id, value] : settings_.entries()) builder.setSetting(id, value);
         builder.setMaterials(materials_);
+        build(symbols_, const_cast<Item&>(*made->items().find(kSymbolsId)), builder);
         build(root_, builder.root(), builder);
         return made;
     }
@@ -326,7 +329,7 @@ private:
     Item& changeable()
     {
         Item& found = item();
-        if (found.id() == kRootId) fail("it changes the top group");
+        if (!found.parent()) fail("it changes the top group");
         return found;
     }
     // Whether an item may hold others is looked at in the end: one that was added stands here with its final type.
@@ -502,7 +505,7 @@ private:
     }
 
     Catalog& catalog_;
-    Item root_;
+    Item root_, symbols_;
     Properties settings_;
     MaterialTable materials_;
     std::unordered_map<std::uint64_t, Item*> byId_;

@@ -4,6 +4,7 @@
 
 #include <jet/catalog.hpp>
 #include <jet/project.hpp>
+#include <jet/symbols.hpp>
 
 #include <algorithm>
 #include <map>
@@ -146,10 +147,12 @@ std::vector<PluginUse> Project::pluginsUsed() const
     for (const Scene* scene : scenes()) {
         if (const auto engine = scene->setting("physics").as<std::string>(); !engine.empty())
             count(ContributionKind::PhysicsEngine, engine);
-        scene->root().walk([&](const Item& item) {
+        const auto countItem = [&](const Item& item) {
             if (!builtInItemType(item.type())) count(ContributionKind::ItemType, item.type());
             for (const EffectInstance& effect : item.effects()) count(ContributionKind::Effect, effect.type);
-        });
+        };
+        scene->root().walk(countItem);
+        for (const Item* symbol : symbolsOf(*scene)) symbol->walk(countItem);
     }
     // What no installed plugin provides cannot be counted: then what the file said of the others stays.
     const bool allKnown = std::ranges::none_of(providers, [](const auto& known) { return known.second.empty(); });

@@ -1,6 +1,7 @@
 #include "effect_states.hpp"
 #include "hasher.hpp"
 #include "scene_state.hpp"
+#include "symbol_links.hpp"
 
 namespace jet {
 
@@ -57,6 +58,7 @@ std::unique_ptr<Scene> Scene::clone(EventsCenter& events) const
 {
     auto copy = std::make_unique<Scene>(name_, events, catalog_);
     SceneBuilder builder(*copy);
+    copyChildren(*items_->d_->symbols, *copy->items_->d_->symbols, builder);
     copyChildren(root(), builder.root(), builder);
     copy->settings_ = settings_;
     copy->materials_ = materials_;
@@ -75,7 +77,7 @@ std::uint64_t Scene::hash() const
     for (const std::string& name : materials_.names()) h.add(std::string_view(name));
     for (const MaterialPair& pair : materials_.pairs())
         h.add(pair.friction), h.add(pair.restitution), h.add(static_cast<std::uint64_t>(pair.collides));
-    root().walk([&](const Item& item) {
+    const auto addItem = [&](const Item& item) {
         h.add(item.id().value);
         h.add(std::string_view(item.type()));
         h.add(std::string_view(item.name()));
@@ -89,7 +91,9 @@ std::uint64_t Scene::hash() const
             addProperties(effect.properties);
         }
         h.add(static_cast<std::uint64_t>(item.children().size()));
-    });
+    };
+    root().walk(addItem);
+    if (const Item& symbols = *items_->d_->symbols; !symbols.children().empty()) symbols.walk(addItem);
     return h.value();
 }
 
@@ -101,7 +105,7 @@ Item& SceneBuilder::add(Item& parent, ItemId id, std::string_view type)
             Error("the id " + std::to_string(id.value) + " is used by another item, '" + d.get(id).name() + "'"));
     auto item = std::make_unique<Item>(id ? id : ItemId{d.nextId}, type);
     Item& added = *item;
-    d.enlist(added);
+    d.enlist(added, d.isOfSymbols(parent) || &parent == d.symbols.get());
     Item::Mutator::insert(parent, parent.children().size(), std::move(item));
     return added;
 }
@@ -112,7 +116,10 @@ void SceneBuilder::setFlags(Item& item, bool visible, bool locked) { Item::Mutat
 void SceneBuilder::setPath(Item& item, Path path) { scene_.items().d_->setPath(item, path); }
 void SceneBuilder::setProperties(Item& item, Properties properties)
 {
+    auto& links = *scene_.items().d_->links;
+    links.delisted(item);
     Item::Mutator::setProperties(item, std::move(properties));
+    links.enlisted(item);
 }
 void SceneBuilder::addEffect(Item& item, EffectInstance effect)
 {

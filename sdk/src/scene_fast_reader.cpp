@@ -156,7 +156,10 @@ thread_local std::vector<Segment> PathText::segments_;
 
 class ItemsText {
 public:
-    ItemsText(std::string_view text, Scene& scene) : rest_(text), scene_(scene), builder_(scene) {}
+    ItemsText(std::string_view text, Scene& scene, std::vector<InstanceRecord>& instances)
+        : rest_(text), scene_(scene), builder_(scene), instances_(instances)
+    {
+    }
 
     bool read()
     {
@@ -327,17 +330,38 @@ private:
         Properties properties;
         for (std::size_t next = 0; line("<property id=\"");)
             if (!property(owner, next, properties)) return false;
+        const bool linked = line("<instance symbol=\"");
+        if (linked && !instance(added, properties)) return false;
         if (!properties.isEmpty()) builder_.setProperties(added, std::move(properties));
         while (line("<effect type=\""))
             if (!effect(added)) return false;
         while (line("<item type=\""))
-            if (!owner.container || !item(added, depth + 1)) return false;
+            if (!owner.container || linked || !item(added, depth + 1)) return false;
+        return true;
+    }
+
+    bool instance(const Item& added, Properties& properties)
+    {
+        std::string_view symbol, matrix, ids;
+        if (!added.is<GroupItem>() || !upTo('"', symbol)) return false;
+        if (skip(" matrix=\"") && !upTo('"', matrix)) return false;
+        if (skip(" ids=\"") && !upTo('"', ids)) return false;
+        const auto link = Value::parse(ValueKind::Item, symbol);
+        const auto placement = matrix.empty() ? std::optional(Affine()) : parseMatrix(matrix);
+        auto items = parseIds(ids);
+        if (!skip("/>\n") || !link || !(*link).as<ItemId>() || !placement || !items) return false;
+        properties.set(kLinkSymbol, *link);
+        properties.set(kLinkX, Vec2(placement->linear().col(0)));
+        properties.set(kLinkY, Vec2(placement->linear().col(1)));
+        properties.set(kLinkOffset, Vec2(placement->matrix().col(2)));
+        instances_.push_back({added.id(), std::move(*items), {}});
         return true;
     }
 
     std::string_view rest_;
     Scene& scene_;
     SceneBuilder builder_;
+    std::vector<InstanceRecord>& instances_;
     std::deque<Declared> types_, effects_;  // deques: what was handed out stays where it is
     std::string text_;
 };
@@ -352,11 +376,11 @@ std::size_t itemsOf(std::string_view text)
     return found == std::string_view::npos ? found : found + 1;
 }
 
-bool readItems(std::string_view text, Scene& scene)
+bool readItems(std::string_view text, Scene& scene, std::vector<InstanceRecord>& instances)
 {
     // The thorough reader makes line ends of '\r'.
     if (text.find('\r') != std::string_view::npos || firstUnstorable(text) != std::string_view::npos) return false;
-    return ItemsText(text, scene).read();
+    return ItemsText(text, scene, instances).read();
 }
 
 }  // namespace jet

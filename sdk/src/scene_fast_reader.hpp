@@ -1,6 +1,8 @@
 // The fast way to read a scene: for text that is exactly what the writer makes of it.
 #pragma once
 
+#include "symbol_text.hpp"
+
 #include <jet/scene.hpp>
 
 #include <string_view>
@@ -15,6 +17,7 @@ std::size_t itemsOf(std::string_view text);
 /// over the text. False where anything is not as the writer writes it, is of a plugin that is absent, or wrong in any
 /// way: then the scene holds some part, is to be thrown away, and the thorough reader to be asked, which also tells
 /// what is wrong. What both read, they read as the same (tests/sdk/scene_fast_reader_test.cpp).
-bool readItems(std::string_view text, Scene& scene);
+/// Adds to `instances` what is to be expanded.
+bool readItems(std::string_view text, Scene& scene, std::vector<InstanceRecord>& instances);
 
 }  // namespace jet

@@ -1,6 +1,6 @@
 #include "migration.hpp"
 #include "scene_fast_reader.hpp"
-#include "scene_state.hpp"
+#include "symbol_text.hpp"
 #include "xml_text.hpp"
 
 #include <jet/project.hpp>
@@ -34,15 +34,20 @@ public:
             } else if (name == "materials") {
                 once(child, "<materials>");
                 readMaterials(child);
+            } else if (name == "symbols") {
+                once(child, "<symbols>");
+                readSymbols(child);
             } else if (name == "item") {
                 readItem(child, builder_.root(), 1);
             } else {
-                source_.unexpected(child, "a scene holds <settings>, <materials> and <item>");
+                source_.unexpected(child, "a scene holds <settings>, <materials>, <symbols> and <item>");
             }
         }
     }
 
     int version = kFormatVersion;  ///< of the text, told by read()
+    /// Instances met so far: they have no items yet.
+    std::vector<InstanceRecord>& instances() { return instances_; }
 
 private:
     // What stands twice would be lost by half.
@@ -157,6 +162,47 @@ private:
         return ItemId{id};
     }
 
+    void readSymbols(const pugi::xml_node& node)
+    {
+        source_.onlyAttributes(node, {});
+        Item& top = const_cast<Item&>(*scene_.items().find(kSymbolsId));
+        for (const pugi::xml_node child : node.children()) {
+            if (std::string_view(child.name()) != "symbol") {
+                source_.unexpected(child, "<symbols> holds <symbol>");
+                continue;
+            }
+            source_.onlyAttributes(child, {"id", "name", "key"});
+            Item& symbol = builder_.add(top, readId(child), GroupItem::type);
+            builder_.setName(symbol, std::string(source_.required(child, "name")));
+            builder_.setProperties(symbol, {{std::string(kSymbolKey), Value(source_.required(child, "key"))}});
+            for (const pugi::xml_node member : child.children()) {
+                if (std::string_view(member.name()) == "item") {
+                    readItem(member, symbol, 2);
+                } else {
+                    source_.unexpected(member, "a symbol holds <item>");
+                }
+            }
+        }
+    }
+
+    void readInstance(const pugi::xml_node& node, const Item& item, Properties& properties)
+    {
+        source_.onlyAttributes(node, {"symbol", "matrix", "ids"});
+        if (!item.is<GroupItem>()) source_.fail(node, "only an item of type 'group' can be an instance of a symbol");
+        const auto number = [&](const char* attribute) { return std::string_view(node.attribute(attribute).value()); };
+        const auto symbol = Value::parse(ValueKind::Item, source_.required(node, "symbol"));
+        if (!symbol || !(*symbol).as<ItemId>()) source_.fail(node, "symbol=\"…\" is the id of a symbol");
+        const auto placement = node.attribute("matrix") ? parseMatrix(number("matrix")) : std::optional(Affine());
+        if (!placement) source_.fail(node, "matrix=\"…\" is six numbers, as in SVG: a b c d e f");
+        auto ids = parseIds(number("ids"));
+        if (!ids) source_.fail(node, "ids=\"…\" is a list of numbers and ranges, such as \"7 9-12\"");
+        properties.set(kLinkSymbol, *symbol);
+        properties.set(kLinkX, Vec2(placement->linear().col(0)));
+        properties.set(kLinkY, Vec2(placement->linear().col(1)));
+        properties.set(kLinkOffset, Vec2(placement->matrix().col(2)));
+        instances_.push_back({item.id(), std::move(*ids), source_.where(node)});
+    }
+
     void readItem(const pugi::xml_node& node, Item& parent, std::size_t depth)
     {
         if (depth > kMaximumDepth) source_.fail(node, "items are nested more than 1000 deep; flatten the groups");
@@ -181,10 +227,15 @@ private:
                 setOnce(properties, child, readProperty(child, table, type));
             } else if (name == "effect") {
                 readEffect(child, item);
+            } else if (name == "instance") {
+                once(child, "<instance>");
+                if (node.child("item"))
+                    source_.fail(child, "what is in an instance comes from its symbol; leave <item> out");
+                readInstance(child, item, properties);
             } else if (name == "item") {
                 readItem(child, item, depth + 1);
             } else {
-                source_.unexpected(child, "an item holds <path>, <property>, <effect> and <item>");
+                source_.unexpected(child, "an item holds <path>, <property>, <instance>, <effect> and <item>");
             }
         }
         builder_.setProperties(item, std::move(properties));
@@ -232,6 +283,7 @@ private:
     Catalog& catalog_;
     std::vector<FormatNote>& notes_;
     std::set<std::string> noted_;
+    std::vector<InstanceRecord> instances_;
 };
 
 /// What JET wrote itself is read without a document tree, several times as fast. Null where that is not so, or
@@ -249,7 +301,8 @@ std::unique_ptr<Scene> readOwnText(const std::string& text, const std::string& f
         SceneTextReader reader(head, *scene, catalog, remarks);
         reader.read();
         if (reader.version != kFormatVersion) return nullptr;
-        if (!readItems(std::string_view(text).substr(items), *scene)) return nullptr;
+        if (!readItems(std::string_view(text).substr(items), *scene, reader.instances())) return nullptr;
+        expandInstances(*scene, reader.instances());
     } catch (const Failure&) {
         return nullptr;
     }
@@ -271,6 +324,7 @@ Result<std::unique_ptr<Scene>> readSceneText(std::string text, const std::string
         SceneTextReader reader(source, *scene, catalog, notes);
         reader.read();
         version = reader.version;
+        expandInstances(*scene, reader.instances());
     } catch (const Failure& failure) {
         return failure.error();
     }

@@ -9,6 +9,7 @@
 #include <jet/catalog.hpp>
 #include <jet/item_type.hpp>
 #include <jet/scene.hpp>
+#include <jet/symbols.hpp>
 
 #include <algorithm>
 #include <deque>
@@ -78,12 +79,17 @@ struct UndoStep;
 
 struct ItemsCenter::Private {
     Private(Scene& s, EventsCenter& e, Catalog& c);
+    ~Private();
 
     Scene& scene;
     EventsCenter& events;
     Catalog& catalog;
     const std::thread::id owner;  // of the events, and so of the scene
     std::unique_ptr<Item> root;
+    std::unique_ptr<Item> symbols;  // the top of the symbols' own tree (jet/symbols.hpp)
+    std::size_t symbolItems = 0;    // in that tree, without the top
+    class Links;
+    std::unique_ptr<Links> links;  // instances follow their symbols
     IdTable byId;
     std::uint64_t nextId = 1;
     std::unordered_set<std::uint64_t> selected;
@@ -99,8 +105,11 @@ struct ItemsCenter::Private {
     /// Throws Failure for an item of another scene or one that was removed; the second one for the top group, too.
     void own(const Item& item) const;
     void ownChangeable(const Item& item) const;
-    void enlist(Item& subtree);
-    void delist(const Item& subtree);
+    /// In the tree of symbols it has an id, but no place in the scene.
+    void enlist(Item& subtree, bool ofSymbols);
+    void delist(const Item& subtree, bool ofSymbols);
+    /// Is it in the tree of symbols, or its top?
+    bool isOfSymbols(const Item& item) const;
 
     /// Makes the change (again), or takes it back. Both directions use stored values only.
     void apply(Change& change);
@@ -135,6 +144,7 @@ struct ItemsCenter::Private {
     };
 
     void setPath(Item& item, const Path& path);
+    void setProperty(Item& item, const std::string& property, const Value& value);
     void insert(ItemId parent, std::size_t index, std::unique_ptr<Item> item);
     std::unique_ptr<Item> take(ItemId id);
     void moveItem(ItemId from, std::size_t fromIndex, ItemId to, std::size_t toIndex);

@@ -1,6 +1,6 @@
 // A scene as text (docs/file-format.md): one element a line, properties in alphabetical order, numbers in their
 // shortest exact form, so that equal scenes have equal bytes and a change is a small difference in version control.
-#include "scene_state.hpp"
+#include "symbol_text.hpp"
 #include "xml_text.hpp"
 
 #include <jet/project.hpp>
@@ -18,6 +18,7 @@ public:
         out_ = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene version=\"1\">\n";
         writeSettings();
         writeMaterials();
+        writeSymbols();
         for (const auto& item : scene_.root().children()) writeItem(*item, 1);
         out_ += "</scene>\n";
         return std::move(out_);
@@ -26,9 +27,10 @@ public:
 private:
     void indent(int depth) { out_.append(static_cast<std::size_t>(depth) * 2, ' '); }
 
-    void writeProperties(const Properties& properties, int depth)
+    void writeProperties(const Properties& properties, int depth, bool linked = false)
     {
         for (const auto& [id, value] : properties.entries()) {
+            if (linked && linkTable().find(id)) continue;
             indent(depth);
             out_ += "<property id=\"";
             appendXmlEscaped(out_, id);
@@ -63,6 +65,26 @@ private:
         out_ += "  </materials>\n";
     }
 
+    void writeSymbols()
+    {
+        const auto symbols = symbolsOf(scene_);
+        if (symbols.empty()) return;
+        out_ += "  <symbols>\n";
+        for (const Item* symbol : symbols) {
+            out_ += "    <symbol" + xmlAttribute("id", std::to_string(symbol->id().value)) +
+                    xmlAttribute("name", symbol->name()) +
+                    xmlAttribute("key", symbol->property(kSymbolKey).value_or(Value("")).as<std::string>());
+            if (symbol->children().empty()) {
+                out_ += "/>\n";
+                continue;
+            }
+            out_ += ">\n";
+            for (const auto& member : symbol->children()) writeItem(*member, 3);
+            out_ += "    </symbol>\n";
+        }
+        out_ += "  </symbols>\n";
+    }
+
     void writeItem(const Item& item, int depth)
     {
         indent(depth);
@@ -84,9 +106,12 @@ private:
             indent(depth + 1);
             out_ += "<path>" + item.path().text() + "</path>\n";
         }
-        writeProperties(item.properties(), depth + 1);
+        const bool linked = isInstance(item);
+        writeProperties(item.properties(), depth + 1, linked);
+        if (linked) indent(depth + 1), appendInstance(out_, item);
         for (const EffectInstance& effect : item.effects()) writeEffect(effect, depth + 1);
-        for (const auto& child : item.children()) writeItem(*child, depth + 1);
+        if (!linked)
+            for (const auto& child : item.children()) writeItem(*child, depth + 1);
         indent(depth);
         out_ += "</item>\n";
     }

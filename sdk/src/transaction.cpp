@@ -1,9 +1,9 @@
 #include "bits.hpp"
 #include "scene_state.hpp"
+#include "symbol_links.hpp"
 #include "utf8.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace jet {
 
@@ -97,6 +97,19 @@ ItemsCenter& Transaction::open() const
 
 namespace {
 
+/// Takes back what was done when it fails half-way.
+template <class Center, class Work>
+decltype(auto) wholly(Center& d, Work work)
+{
+    const typename Center::Savepoint before(d);
+    try {
+        return work();
+    } catch (...) {
+        before.restore();
+        throw;
+    }
+}
+
 // Depth below the top group; what the subtree adds to it.
 std::size_t depthOf(const Item& item)
 {
@@ -128,10 +141,13 @@ const Item& Transaction::add(std::string_view type, const Item& parent, Path pat
     if (!table) fail(d.catalog.explain(ContributionKind::ItemType, type));
     checkPlace(parent, 0);
     checkPath(path);
+    const bool isSymbol = &parent == d.symbols.get();
+    if (isSymbol && (type != GroupItem::type || !path.isEmpty())) fail("a symbol is a group without a path of its own");
     auto item = std::make_unique<Item>(ItemId{d.nextId}, type);
     Item::Mutator::setName(*item, itemTypeOf(d.catalog, type)->label() + " " + std::to_string(d.nextId));
     Item::Mutator::setPath(*item, std::move(path));
     Item::Mutator::setProperties(*item, completed(*table, {}, type));
+    if (isSymbol) ItemsCenter::Private::Links::nameKey(*item);
     const Item& added = *item;
     const std::size_t count = parent.children().size();
     d.make(ItemAdded{item->id(), parent.id(), std::min(index.value_or(count), count), std::move(item)});
@@ -140,9 +156,7 @@ const Item& Transaction::add(std::string_view type, const Item& parent, Path pat
 
 namespace {
 
-using IdMap = std::map<std::uint64_t, ItemId>;
-
-std::unique_ptr<Item> deepCopy(const Item& source, std::uint64_t& nextId, IdMap& ids)
+std::unique_ptr<Item> deepCopy(const Item& source, std::uint64_t& nextId, ItemPairs& ids)
 {
     const ItemId id{nextId++};
     ids.emplace(source.id().value, id);
@@ -152,31 +166,26 @@ std::unique_ptr<Item> deepCopy(const Item& source, std::uint64_t& nextId, IdMap&
     return copy;
 }
 
-Properties redirected(const Properties& properties, const IdMap& ids, bool keepOthers)
+void pairMembers(const Item& source, const Item& copy, ItemPairs& pairs)
 {
-    Properties result = properties;
-    for (const auto& [id, value] : properties.entries()) {
-        const ItemId* reference = value.get<ItemId>();
-        if (!reference) continue;
-        const auto found = ids.find(reference->value);
-        if (found != ids.end()) {
-            result.set(id, found->second);
-        } else if (!keepOthers) {
-            result.set(id, ItemId{});
-        }
+    for (std::size_t i = 0; i < source.children().size(); ++i) {
+        const Item& member = *source.children()[i];
+        pairs.emplace(member.id().value, copy.children()[i]->id());
+        if (!isInstance(member)) pairMembers(member, *copy.children()[i], pairs);
     }
-    return result;
 }
 
 // References between items of the copied subtree lead to the copies. Others stay within a scene; in another scene their
-// numbers would mean other items, so there they lead nowhere.
-void redirectReferences(Item& copy, const IdMap& ids, bool keepOthers)
+// numbers would mean other items, so there they lead nowhere. What is in an instance refers to what its symbol says.
+void redirectCopies(const Item& source, Item& copy, const ItemPairs& ids, bool keepOthers)
 {
-    Item::Mutator::setProperties(copy, redirected(copy.properties(), ids, keepOthers));
-    for (EffectInstance& effect : Item::Mutator::effects(copy))
-        effect.properties = redirected(effect.properties, ids, keepOthers);
+    redirectOwnReferences(copy, ids, keepOthers);
+    ItemPairs inner;
+    const bool linked = isInstance(source);
+    if (linked) pairMembers(source, copy, inner);
     for (std::size_t i = 0; i < copy.children().size(); ++i)
-        redirectReferences(*Item::Mutator::child(copy, i), ids, keepOthers);
+        redirectCopies(*source.children()[i], *Item::Mutator::child(copy, i), linked ? inner : ids,
+                       linked || keepOthers);
 }
 
 }  // namespace
@@ -186,13 +195,20 @@ const Item& Transaction::addCopy(const Item& source, const Item& parent, std::op
     auto& d = *open().d_;
     d.own(parent);
     checkPlace(parent, heightOf(source));
-    IdMap ids;
-    auto copy = deepCopy(source, d.nextId, ids);
-    redirectReferences(*copy, ids, d.owns(source));
-    const Item& added = *copy;
-    const std::size_t count = parent.children().size();
-    d.make(ItemAdded{copy->id(), parent.id(), std::min(index.value_or(count), count), std::move(copy)});
-    return added;
+    if (isSymbol(source) || source.id() == kSymbolsId || parent.id() == kSymbolsId)
+        fail("a symbol is not copied; place an instance of it");
+    const bool own = d.owns(source);
+    return wholly(d, [&]() -> const Item& {
+        if (own) d.links->settle(source), d.own(parent);
+        ItemPairs ids;
+        auto copy = deepCopy(source, d.nextId, ids);
+        redirectCopies(source, *copy, ids, own);
+        if (!own) d.links->adopt(source, *copy);
+        const Item& added = *copy;
+        const std::size_t count = parent.children().size();
+        d.make(ItemAdded{copy->id(), parent.id(), std::min(index.value_or(count), count), std::move(copy)});
+        return added;
+    });
 }
 
 void Transaction::remove(const Item& item)
@@ -200,7 +216,10 @@ void Transaction::remove(const Item& item)
     auto& d = *open().d_;
     d.own(item);
     if (!item.parent()) fail("the top group of a scene cannot be removed");
-    d.make(ItemRemoved{item.id(), item.parent()->id(), item.index(), nullptr});
+    wholly(d, [&] {
+        d.links->settle(item);
+        d.make(ItemRemoved{item.id(), item.parent()->id(), item.index(), nullptr});
+    });
 }
 
 void Transaction::move(const Item& item, const Item& newParent, std::size_t index)
@@ -210,6 +229,7 @@ void Transaction::move(const Item& item, const Item& newParent, std::size_t inde
     if (!item.parent()) fail("the top group of a scene cannot be moved");
     if (&item == &newParent || item.isAncestorOf(newParent)) fail("'" + item.name() + "' cannot be moved into itself");
     checkPlace(newParent, heightOf(item));
+    if (isSymbol(item) != (newParent.id() == kSymbolsId)) fail("a symbol stays among the symbols, and nothing else");
     const std::size_t room = newParent.children().size() - (item.parent() == &newParent ? 1 : 0);
     const ItemMoved change{item.id(), item.parent()->id(), newParent.id(), item.index(), std::min(index, room)};
     if (change.oldParent == change.newParent && change.oldIndex == change.newIndex) return;
@@ -229,6 +249,7 @@ void Transaction::set(const Item& item, std::string_view property, Value value)
         const PropertyTable* table = itemTable(d.catalog, item.type());
         if (!table) fail(d.catalog.explain(ContributionKind::ItemType, item.type()));
         const PropertySpec* spec = table->find(property);
+        if (!spec && linkTable().find(property)) return wholly(d, [&] { d.links->set(item, property, value); });
         checkValue(spec, item.type(), property, value);
         value = normalized(*spec, std::move(value));
     }
@@ -248,10 +269,12 @@ void Transaction::setPath(const Item& item, Path path)
 
 namespace {
 
-void transformTree(Transaction& edit, const Item& item, const Affine& m)
+template <class Center>
+void transformTree(Transaction& edit, Center& d, const Item& item, const Affine& m)
 {
     if (!item.path().isEmpty()) edit.setPath(item, item.path().transformed(m));
-    for (const auto& child : item.children()) transformTree(edit, *child, m);
+    if (isInstance(item)) return d.links->place(item, m * placementOf(item));
+    for (const auto& child : item.children()) transformTree(edit, d, *child, m);
 }
 
 }  // namespace
@@ -263,7 +286,8 @@ void Transaction::transform(const Item& item, const Affine& m)
     if (m.isIdentity()) return;
     const std::size_t before = d.changes.size();
     try {
-        transformTree(*this, item, m);
+        d.links->settle(item);  // not while its members are walked over
+        transformTree(*this, d, item, m);
     } catch (...) {
         d.revertTo(before);
         throw;
@@ -280,6 +304,25 @@ void Transaction::transform(const Item& item, const Affine& m, std::span<const s
     setPath(item, std::move(path));
 }
 
+namespace {
+
+template <class Center>
+void changeType(Center& d, const Item& item, std::string_view type, const PropertyTable& table)
+{
+    d.links->settle(item);
+    if (!item.children().empty() && type != GroupItem::type && type != LayerItem::type)
+        fail("'" + item.name() + "' holds other items, so it must stay a group or layer");
+    std::vector<PropertyChanged> dropped;
+    for (const auto& [id, value] : item.properties().entries())
+        if (!table.find(id)) dropped.push_back({item.id(), id, value, Value()});
+    for (PropertyChanged& change : dropped) d.make(std::move(change));
+    d.make(TypeChanged{item.id(), item.type(), std::string(type)});
+    for (const PropertySpec& spec : table.specs())
+        if (!item.properties().find(spec.id)) d.make(PropertyChanged{item.id(), spec.id, Value(), spec.fallback});
+}
+
+}  // namespace
+
 void Transaction::setType(const Item& item, std::string_view type)
 {
     auto& d = *open().d_;
@@ -287,15 +330,7 @@ void Transaction::setType(const Item& item, std::string_view type)
     d.ownChangeable(item);
     if (!table) fail(d.catalog.explain(ContributionKind::ItemType, type));
     if (item.type() == type) return;
-    if (!item.children().empty() && type != GroupItem::type && type != LayerItem::type)
-        fail("'" + item.name() + "' holds other items, so it must stay a group or layer");
-    std::vector<PropertyChanged> dropped;
-    for (const auto& [id, value] : item.properties().entries())
-        if (!table->find(id)) dropped.push_back({item.id(), id, value, Value()});
-    for (PropertyChanged& change : dropped) d.make(std::move(change));
-    d.make(TypeChanged{item.id(), item.type(), std::string(type)});
-    for (const PropertySpec& spec : table->specs())
-        if (!item.properties().find(spec.id)) d.make(PropertyChanged{item.id(), spec.id, Value(), spec.fallback});
+    wholly(d, [&] { changeType(d, item, type, *table); });
 }
 
 std::size_t Transaction::addEffect(const Item& item, std::string_view effect, Properties properties)
@@ -397,6 +432,8 @@ void Transaction::commit(std::string_view mergeKey)
         center_ = nullptr;
         return;
     }
+    d.links->follow();
+    d.links->close();
     OpenLevel& level = d.levels.front();
     if (d.changes.empty()) {
         center_ = nullptr;

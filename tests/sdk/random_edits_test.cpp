@@ -5,6 +5,8 @@
 #include "scene_fakes.hpp"
 
 #include <jet/item_type.hpp>
+#include <jet/project.hpp>
+#include <jet/symbols.hpp>
 
 #include <deque>
 
@@ -34,6 +36,8 @@ protected:
     {
         everything_.clear();
         scene.root().walk([&](const Item& item) { everything_.push_back(&item); });
+        for (const Item* symbol : symbolsOf(scene))
+            symbol->walk([&](const Item& item) { everything_.push_back(&item); });
         return *oneOf(everything_);
     }
     const Item& anyContainer()
@@ -155,6 +159,49 @@ protected:
         edit.setScene(spec.id, anyValue(spec));
     }
 
+    const Item& anySymbol()
+    {
+        const auto symbols = symbolsOf(scene);
+        if (symbols.empty()) throw Failure(Error("no symbol yet"));
+        return *oneOf(symbols);
+    }
+    const Item& anyInstance()
+    {
+        const auto instances = instancesOf(scene, anySymbol());
+        if (instances.empty()) throw Failure(Error("no instance"));
+        return *oneOf(instances);
+    }
+    Affine anyPlacement()
+    {
+        if (chance(1, 2)) return Affine::translation(random_.point());
+        Affine placement = Affine::rotation(random_.real(-3, 3), random_.point());
+        placement.linear() *= chance(1, 10) ? 0 : random_.real(0.5, 2);
+        return placement;
+    }
+    void changeSymbols()
+    {
+        auto edit = items().begin("Symbols");  // several changes: what fails half-way is taken back as a whole
+        changeSymbols(edit);
+        edit.commit();
+    }
+    void changeSymbols(Transaction& edit)
+    {
+        switch (items().itemCount() > kMostItems ? 2 + random_.index(5) : random_.index(6)) {
+        case 0: {
+            if (symbolsOf(scene).size() > 4) return;
+            const Item* item = &anyItem();
+            if (item->parent() && item->id() != kSymbolsId) createSymbol(edit, scene, std::span(&item, 1));
+            break;
+        }
+        case 1: placeSymbol(edit, anySymbol(), anyContainer(), anyPlacement()); break;
+        case 2: setPlacement(edit, anyInstance(), anyPlacement()); break;
+        case 3: swapSymbol(edit, anyInstance(), anySymbol()); break;
+        case 4: detachInstance(edit, anyInstance()); break;
+        case 5: edit.remove(anyInstance()); break;
+        default: removeSymbol(edit, anySymbol());
+        }
+    }
+
     /// One operation; what cannot be done is refused and leaves the scene as it was.
     void operate(Transaction& edit)
     {
@@ -162,7 +209,8 @@ protected:
         const bool look = chance(1, 16);
         const std::uint64_t before = look ? scene.hash() : 0;
         try {
-            switch (random_.index(10)) {
+            switch (random_.index(11)) {
+            case 10: return changeSymbols();
             case 0:
             case 1:
             case 2: return changeTree(edit);
@@ -247,6 +295,37 @@ protected:
         nothing ? expectRemembered("nothing") : remember();
     }
 
+    static std::string firstDifference(const Item& a, const Item& b)
+    {
+        const std::string name = "item " + std::to_string(b.id().value) + " '" + b.name() + "': ";
+        if (a.id() != b.id() || a.type() != b.type() || a.name() != b.name())
+            return name + "is " + std::to_string(a.id().value) + " " + a.type() + " '" + a.name() + "' in the file";
+        if (a.visible() != b.visible() || a.locked() != b.locked()) return name + "flags";
+        if (a.path().text() != b.path().text()) return name + a.path().text() + " and " + b.path().text();
+        for (const auto& [id, value] : b.properties().entries())
+            if (a.property(id) != value)
+                return name + id + " is " + value.text() + ", in the file " + a.property(id).value_or("none").text();
+        if (a.properties() != b.properties()) return name + "properties";
+        if (!std::ranges::equal(a.effects(), b.effects())) return name + "effects";
+        if (a.children().size() != b.children().size()) return name + "number of members";
+        for (std::size_t i = 0; i < a.children().size(); ++i)
+            if (std::string text = firstDifference(*a.children()[i], *b.children()[i]); !text.empty())
+                return name + "\n" + text;
+        return "";
+    }
+
+    /// A file gives back what is in memory bit by bit, so the instances are what their symbols make of them.
+    void expectExactInstances()
+    {
+        std::vector<FormatNote> notes;
+        const auto read = readSceneText(writeSceneText(scene), "edits.scene", readBack_, catalog, notes);
+        ASSERT_TRUE(read) << read.error().message << " after operation " << operations_;
+        ASSERT_EQ((*read)->hash(), scene.hash())
+            << "after operation " << operations_ << ": " << firstDifference((*read)->root(), scene.root())
+            << firstDifference(*(*read)->items().find(kSymbolsId), *items().find(kSymbolsId));
+        withInstances_ += !symbolsOf(scene).empty();
+    }
+
     void travel()
     {
         if (chance(1, 20)) {
@@ -264,7 +343,8 @@ protected:
     std::vector<const Item*> everything_;
     std::deque<std::uint64_t> log_{scene.hash()};  // by place in the history
     std::size_t logBase_ = 0;
-    int operations_ = 0, refused_ = 0;
+    int operations_ = 0, refused_ = 0, withInstances_ = 0;
+    EventsCenter readBack_;
 };
 
 TEST_F(RandomEdits, AMillionOperationsLeadBackToWhatWas)
@@ -275,10 +355,14 @@ TEST_F(RandomEdits, AMillionOperationsLeadBackToWhatWas)
         if (chance(1, 4)) {
             ASSERT_NO_FATAL_FAILURE(travel());
         }
+        if (chance(1, 5)) {
+            ASSERT_NO_FATAL_FAILURE(expectExactInstances());
+        }
         if (chance(1, 50)) history().markClean();
         if (chance(1, 10)) items().query(Box({-50, -50}, {50, 50}));  // keeps the index alive and its edits tested
     }
     EXPECT_GT(history().forgotten(), 100u);
+    EXPECT_GT(withInstances_, 1000);
     EXPECT_GT(refused_, kOperations / 100) << "what is refused is a part of the test";
     EXPECT_LT(refused_, kOperations / 2);
     std::vector<const Item*> painted;

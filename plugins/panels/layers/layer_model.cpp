@@ -1,5 +1,6 @@
 #include "layer_model.hpp"
 
+#include <jet/symbols.hpp>
 #include <jet/ui/icons.hpp>
 
 #include <QApplication>
@@ -27,10 +28,11 @@ std::vector<ItemId> childIds(const Item& item)
 QIcon iconOf(const Item& item)
 {
     static std::unordered_map<std::string, QIcon> icons;
-    const auto found = icons.find(item.type());
+    const std::string name = isInstance(item) ? "symbol" : item.type();
+    const auto found = icons.find(name);
     if (found != icons.end()) return found->second;
-    QIcon icon = ui::icon(item.type());
-    return icons.emplace(item.type(), icon.isNull() ? ui::icon("unknown") : icon).first->second;
+    QIcon icon = ui::icon(name);
+    return icons.emplace(name, icon.isNull() ? ui::icon("unknown") : icon).first->second;
 }
 
 const QIcon& toggleIcon(int column, bool on)
@@ -257,6 +259,9 @@ void LayerModel::rowChanged(ItemId item)
 // An item whose plugin is absent says who that is.
 QString LayerModel::typeToolTip(const Item& item) const
 {
+    if (const Item* symbol = symbolOf(*scene_, item))
+        return tr("Instance of the symbol %1: what is changed in it changes in all of them.")
+            .arg(QString::fromStdString(symbol->name()));
     Catalog& catalog = scene_->catalog();
     const bool known = builtInItemType(item.type()) || catalog.itemType(item.type());
     return QString::fromStdString(known ? item.type() : catalog.explain(ContributionKind::ItemType, item.type()));

@@ -48,6 +48,7 @@ constexpr IconData kIcons[] = {
      ""},
     {"paste", "M 8 5 H 5 V 21 H 19 V 5 H 16 M 8.5 3 H 15.5 V 7 H 8.5 Z", ""},
     {"group", "M 3 6.5 H 10 L 12 9 H 21 V 19.5 H 3 Z", ""},
+    {"symbol", "M 3 6.5 H 10 L 12 9 H 21 V 19.5 H 3 Z M 12 11.5 L 14.8 14.3 L 12 17.1 L 9.2 14.3 Z", ""},
     {"ungroup", "M 4 4 H 12 V 12 H 4 Z M 12 12 H 20 V 20 H 12 Z", ""},
     {"layer", "M 12 3.5 L 21.5 9 L 12 14.5 L 2.5 9 Z M 3 14 L 12 19.5 L 21 14", ""},
     {"shape", "M 4 9.5 H 14.5 V 20 H 4 Z M 9 9 A 5.5 5.5 0 1 1 15 15", ""},
