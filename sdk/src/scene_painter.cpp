@@ -9,15 +9,19 @@ namespace jet {
 
 namespace {
 
-void paintPlaceholder(const Path& path, PaintPurpose purpose, Painter& painter)
+constexpr Color kAbsent{200, 0, 120, 255};
+
+/// For what an absent plugin would paint. `what` names it; empty where the outline is enough.
+void paintPlaceholder(const Path& path, std::string_view what, PaintPurpose purpose, Painter& painter)
 {
     if (purpose != PaintPurpose::Edit || path.isEmpty()) return;
     Pen pen;
-    pen.color = Color{200, 0, 120, 255};
+    pen.color = kAbsent;
     pen.width = 1.5;
     pen.cosmetic = true;
     pen.dashes = {6, 4};
     painter.stroke(path, pen);
+    if (!what.empty()) painter.text(path.bounds().center(), what, TextStyle{kAbsent, 12, true, true});
 }
 
 void paintOne(const Scene& scene, const Item& item, const Path& path, const LiveBody* body, PaintPurpose purpose,
@@ -30,7 +34,7 @@ void paintOne(const Scene& scene, const Item& item, const Path& path, const Live
         if (!instance.visible) continue;
         const Effect* effect = scene.catalog().effect(instance.type);
         if (!effect) {
-            paintPlaceholder(path, purpose, painter);
+            paintPlaceholder(path, {}, purpose, painter);
             continue;
         }
         const EffectInput input{item, path, instance.properties, effect->properties(), body};
@@ -39,7 +43,7 @@ void paintOne(const Scene& scene, const Item& item, const Path& path, const Live
     if (const ItemType* type = itemTypeOf(scene.catalog(), item.type())) {
         type->paint(item, path, purpose, painter);
     } else {
-        paintPlaceholder(path, purpose, painter);
+        paintPlaceholder(path, item.type(), purpose, painter);
     }
 }
 

@@ -61,13 +61,32 @@ void ItemsCenter::Private::Links::Follower::run()
         left.erase(next);
         follow(base);
     }
-    std::set<ItemId> concerned;
-    for (const Base& base : now_.bases) {
-        if (!d_.byId.find(base.symbol.value)) continue;
-        concerned.insert(base.symbol);
-        walkMembers(d_.get(base.symbol), [&](const Item& item) { concerned.insert(linkOf(item)); });
+}
+
+/// Whose members a recorded change touched, in whatever way it came to be.
+std::set<ItemId> ItemsCenter::Private::Links::Follower::concerned() const
+{
+    std::set<ItemId> symbols;
+    const auto note = [&](ItemId id, bool asContainer) {
+        const Item* item = d_.byId.find(id.value);
+        if (!item) return;
+        if (const ItemId link = linkOf(*item)) symbols.insert(link);
+        const Item* holder = asContainer ? holderOfMembers(*item) : holderOf(*item);
+        if (holder) symbols.insert(isSymbol(*holder) ? holder->id() : linkOf(*holder));
+    };
+    for (const Change& change : d_.changes) {
+        note(changedItem(change), false);
+        if (const auto* added = std::get_if<ItemAdded>(&change)) note(added->parent, true);
+        if (const auto* removed = std::get_if<ItemRemoved>(&change)) note(removed->parent, true);
+        if (const auto* moved = std::get_if<ItemMoved>(&change))
+            note(moved->oldParent, true), note(moved->newParent, true);
     }
-    for (const ItemId symbol : concerned) mend(symbol);
+    return symbols;
+}
+
+void ItemsCenter::Private::Links::Follower::mend()
+{
+    for (const ItemId symbol : concerned()) mend(symbol);
 }
 
 /// The last word is the symbol's: what steps that crossed each other left otherwise is made anew.

@@ -18,6 +18,8 @@ class ItemsCenter::Private::Links::Follower {
 public:
     Follower(Links& links, const Followed& now) : links_(links), d_(links.d_), now_(now), content_(links.content()) {}
     void run();
+    /// Makes sure of all instances the transaction had to do with.
+    void mend();
     /// Makes the symbol's members from those of a group that has just become its first instance.
     static void fill(Links& links, const Item& group, const Item& symbol);
 
@@ -50,6 +52,7 @@ private:
     void takeFields(const Item& holder, const ItemPairs& toSymbol, Difference& difference);
     void giveOut(const Item& symbol, Receiver& receiver, const Difference& difference);
 
+    std::set<ItemId> concerned() const;
     void mend(ItemId symbol);
     bool isExact(const Item& symbol, const Item& instance) const;
     void alignMembers(const Item& from, const Item& to, Alignment& alignment);

@@ -248,6 +248,23 @@ void ItemsCenter::Private::Links::follow()
     if (now.end > now.begin) followed_.push_back(std::move(now));
 }
 
+void ItemsCenter::Private::Links::finish()
+{
+    follow();
+    if (!hasSymbols() || d_.changes.empty()) return;
+    const std::size_t before = d_.changes.size();
+    const Followed nothing;
+    following_ = true;
+    try {
+        Follower(*this, nothing).mend();
+    } catch (...) {
+        following_ = false;
+        d_.revertTo(before);
+        throw;
+    }
+    following_ = false;
+}
+
 // --- changes of a link
 
 void ItemsCenter::Private::Links::nameKey(Item& symbol)

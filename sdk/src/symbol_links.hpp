@@ -95,7 +95,9 @@ public:
     void close();
     /// Lets the instances follow; part of the open transaction.
     void follow();
-    /// The same, if something in that subtree waits for it.
+    /// At the commit: lets them follow, and makes sure that each is what its symbol makes of it.
+    void finish();
+    /// Lets them follow, if something in that subtree waits for it.
     void settle(const Item& subtree);
 
     /// Sets a property of a link: of the group's own, or of the symbol's key.

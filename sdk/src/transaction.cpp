@@ -432,7 +432,7 @@ void Transaction::commit(std::string_view mergeKey)
         center_ = nullptr;
         return;
     }
-    d.links->follow();
+    d.links->finish();
     d.links->close();
     OpenLevel& level = d.levels.front();
     if (d.changes.empty()) {

@@ -6,6 +6,7 @@
 #include "fixtures/fakes.hpp"
 #include "support/test_catalog.hpp"
 
+#include <jet/find.hpp>
 #include <jet/project.hpp>
 
 #include <algorithm>
@@ -207,6 +208,13 @@ void viewQuery(benchmark::State& state)
 }
 JET_BENCH(viewQuery, 100);
 
+void find(benchmark::State& state)
+{
+    const FindQuery query = FindQuery::parse("name:*7 type:shape -effect:stroke is:visible").orThrow();
+    timed(state, "find", [&] { benchmark::DoNotOptimize(findItems(scene(), query)); });
+}
+JET_BENCH(find, 20);
+
 // --- changes
 
 std::vector<ItemId> selectMany()
@@ -353,7 +361,7 @@ void report(bench::Summary& summary)
     ratio("drag_step_to_qgraphicsscene", "dragStep", "qtDragStep");
     goal("undo", "undo_of_10000_moves", 10);
     ratio("undo_to_qundostack", "undo", "qtUndo");
-    for (const char* name : {"hash", "clone", "removeAll"}) summary.note(name, median(name), "ms");
+    for (const char* name : {"find", "hash", "clone", "removeAll"}) summary.note(name, median(name), "ms");
 }
 
 }  // namespace

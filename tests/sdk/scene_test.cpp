@@ -147,5 +147,20 @@ TEST_F(SceneTest, WhatAMissingPluginDrewShowsAsAPlaceholderWhileEditing)
     EXPECT_TRUE(play.drawn().empty());
 }
 
+TEST_F(SceneTest, AnItemOfAnAbsentTypeShowsTheNameOfTheTypeWhileEditing)
+{
+    test::TestCatalog none;
+    Scene bare("Bare", events, none);
+    SceneBuilder builder(bare);
+    Item& item = builder.add(builder.root(), {}, "acme-rope");
+    builder.setPath(item, Path::rectangle(Box({0, 0}, {4, 2})));
+    RecordingPainter edit, exported;
+    paintScene(bare, nullptr, PaintPurpose::Edit, Box({-9, -9}, {9, 9}), edit);
+    paintScene(bare, nullptr, PaintPurpose::Export, Box({-9, -9}, {9, 9}), exported);
+    ASSERT_EQ(edit.texts().size(), 1u);
+    EXPECT_EQ(edit.texts()[0].text, "acme-rope");
+    EXPECT_TRUE(exported.drawn().empty());
+}
+
 }  // namespace
 }  // namespace jet
