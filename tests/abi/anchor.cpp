@@ -8,6 +8,7 @@
 #include <jet/editor.hpp>
 #include <jet/effect.hpp>
 #include <jet/events.hpp>
+#include <jet/find.hpp>
 #include <jet/format.hpp>
 #include <jet/geometry.hpp>
 #include <jet/input.hpp>
@@ -88,6 +89,8 @@ TYPE(jet::Effect)
 TYPE(jet::EventType)
 TYPE(jet::Subscription)
 TYPE(jet::EventsCenter)
+TYPE(jet::FindQuery)
+TYPE(jet::ShowArea)
 TYPE(jet::Progress)
 TYPE(jet::FormatNote)
 TYPE(jet::ImportRequest)
