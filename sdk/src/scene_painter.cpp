@@ -1,4 +1,5 @@
 #include "effect_states.hpp"
+#include "known_effect.hpp"
 #include "scene_state.hpp"
 
 #include <jet/scene_painter.hpp>
@@ -32,7 +33,7 @@ void paintOne(const Scene& scene, const Item& item, const Path& path, const Live
     for (std::size_t i = 0; i < item.effects().size(); ++i) {
         const EffectInstance& instance = item.effects()[i];
         if (!instance.visible) continue;
-        const Effect* effect = scene.catalog().effect(instance.type);
+        const Effect* effect = knownEffect(scene.catalog(), instance);
         if (!effect) {
             paintPlaceholder(path, {}, purpose, painter);
             continue;

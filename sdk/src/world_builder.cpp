@@ -1,5 +1,6 @@
 #include "world_builder.hpp"
 
+#include "known_effect.hpp"
 #include "scene_state.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ namespace {
 bool wantsLiveBody(const Scene& scene, const Item& item)
 {
     return std::any_of(item.effects().begin(), item.effects().end(), [&](const EffectInstance& instance) {
-        const Effect* effect = scene.catalog().effect(instance.type);
+        const Effect* effect = knownEffect(scene.catalog(), instance);
         return effect && effect->wantsLiveBody();
     });
 }
@@ -82,6 +83,11 @@ void SceneWorldBuilder::addBody(const Item& item)
         const Effect* effect = scene_.catalog().effect(instance.type);
         if (!effect) {
             warn(item, scene_.catalog().explain(ContributionKind::Effect, instance.type));
+            continue;
+        }
+        if (readWithoutPlugin(*effect, instance)) {
+            warn(item, "its effect '" + instance.type +
+                           "' was read while its plugin was switched off; save the project and open it again");
             continue;
         }
         const EffectInput input{item, item.path(), instance.properties, effect->properties()};

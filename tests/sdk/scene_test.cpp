@@ -147,6 +147,19 @@ TEST_F(SceneTest, WhatAMissingPluginDrewShowsAsAPlaceholderWhileEditing)
     EXPECT_TRUE(play.drawn().empty());
 }
 
+TEST_F(SceneTest, AnEffectWhosePluginCameAfterTheSceneWasReadIsStillAPlaceholder)
+{
+    Scene late("Late", events, catalog);
+    SceneBuilder builder(late);
+    Item& item = builder.add(builder.root(), {}, "shape");
+    builder.setPath(item, Path::rectangle(Box({0, 0}, {1, 1})));
+    builder.addEffect(item, {"tint", {{"color", Value(RawText{"#ff0000"})}}, true});
+    RecordingPainter edit;
+    paintScene(late, nullptr, PaintPurpose::Edit, Box({-9, -9}, {9, 9}), edit);
+    EXPECT_TRUE(edit.fills().empty()) << "the effect wants a colour, and there is a text";
+    EXPECT_EQ(edit.strokes().size(), 1u);
+}
+
 TEST_F(SceneTest, AnItemOfAnAbsentTypeShowsTheNameOfTheTypeWhileEditing)
 {
     test::TestCatalog none;
