@@ -223,12 +223,10 @@ void EditController::applyEffect(const std::string& id)
         std::string refused;
         for (const Item* item : topSelection(front)) {
             std::string why = effect->rejects(*item);
-            if (why.empty()) {
+            if (why.empty())
                 edit.addEffect(*item, id);
-                effect->applied(edit, *item);
-            } else {
+            else
                 refused = item->name() + ": " + why;
-            }
         }
         if (!refused.empty()) editor_.showMessage(refused);
         edit.commit();
