@@ -32,6 +32,8 @@ def text(value):
         return "true" if value else "false"
     if isinstance(value, (tuple, list)):
         return " ".join(f"{v:g}" for v in value)
+    if isinstance(value, float) and value.is_integer():
+        return str(int(value))  # as JET writes it, not 1e+06
     return f"{value:g}" if isinstance(value, (int, float)) else str(value)
 
 

@@ -361,7 +361,8 @@ TEST_F(PluginsPanelTest, TheFilterLooksAtNamesStatesAndContributions)
     EXPECT_EQ(table->model()->rowCount(), 1);
     filter->clear();
     QTest::keyClicks(filter, "boxes");
-    EXPECT_EQ(table->model()->rowCount(), 1) << "of the plugin that contributes that format";
+    EXPECT_TRUE(row("Good").isValid()) << "the plugin that contributes that format";
+    EXPECT_LT(table->model()->rowCount(), all);
     filter->clear();
     QTest::keyClicks(filter, "switched off");
     EXPECT_LT(table->model()->rowCount(), all);

@@ -288,7 +288,7 @@ void Collider::forgetPairs()
 
 void Collider::rebuild()
 {
-    rearranged_ = welded_ = false;  // outlines follow from places, points were restored
+    welded_ = false;  // outlines follow from places
     known_.clear();
     for (Index i = 0; i < contacts_.size(); ++i)
         if (places_[i] != kFree) known_.insert(contacts_[i].key());

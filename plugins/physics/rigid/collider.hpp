@@ -80,7 +80,7 @@ public:
         fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1), resting_.resize(bodies_.size());
         for (std::vector<Pose>* poses : {&fitted_, &resting_})
             for (Pose& pose : *poses) with(pose.x), with(pose.y), with(pose.turn), with(pose.travel);
-        with(room_), with(disturbed_);
+        with(room_), with(disturbed_), with(rearranged_);
         sweep_.archive(with);
     }
     /// After restoring: what follows from what was restored.

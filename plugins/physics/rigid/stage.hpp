@@ -60,7 +60,12 @@ public:
             with(def.dampingRatio), with(def.ratio), with(def.breakForce), with(def.collide);
         }
     }
-    void rebuild() { collider_.rebuild(); }
+    void rebuild()
+    {
+        collider_.rebuild();
+        if (active_ != Active::Single) single_ = {};  // it was not in the state, and knows contacts of another one
+        if (active_ != Active::Double) double_ = {};
+    }
 
 private:
     StepShape shapeOf(const WorldSettings&, double dt, bool large) const;
