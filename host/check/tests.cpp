@@ -45,7 +45,7 @@ constexpr std::array kTests = {
     Test{"painting", "what it paints is finite and balanced, for any path and any values in range", K::Effect, 30, 1024,
          false, testEffectPainting},
     Test{"alone", "without optional plugins and engines", K::Effect, 30, 1024, false, testEffectAlone},
-    Test{"bodies", "the bodies it builds are sound, and play", K::Effect, 30, 1024, false, testEffectBodies},
+    Test{"bodies", "the bodies it builds are sound, and play", K::Effect, 90, 1024, false, testEffectBodies},
     Test{"edits", "1,000 random edits of its items, undone and redone to equal hashes", K::ItemType, 30, 1024, false,
          testItemTypeEdits},
     Test{"saving", "scenes with its items are saved, opened and saved again to equal bytes", K::ItemType, 30, 1024,

@@ -11,6 +11,7 @@ constexpr double kLean = 0.3;
 constexpr double kFacing = 0.2;       // how far outsides must oppose for a border to meet itself
 constexpr double kHeldBonus = 0.5;    // a wall that held the point counts as half as far
 constexpr double kFoldedPenalty = 2;  // soft bodies: a wall whose outside does not oppose the point's counts as farther
+constexpr std::size_t kMostWalls = 4;  // a point may meet in one step
 constexpr double kShallow = 0.5;  // of the body's length: deeper inside, the nearest wall is taken whatever its side
 
 }  // namespace
@@ -135,6 +136,7 @@ void NarrowPhase::touch(const Approach& approach, const ContactPoint& pattern, s
     ContactPoint contact = pattern;
     contact.point = approach.point;
     bool onSurface = false;
+    const std::size_t before = found.size();
     const Vec2 span(approach.reach, approach.reach);
     b_->grid.visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
         WallView seen;
@@ -148,6 +150,16 @@ void NarrowPhase::touch(const Approach& approach, const ContactPoint& pattern, s
         contact.secondInset = yields(contact.wall, state_.walls.secondEnd, state_.walls.next, approach);
         found.push_back(contact);
     });
+    // What moves very fast has all walls in reach; the nearest come first on its way.
+    if (found.size() > before + kMostWalls) {
+        const auto distance = [&](const ContactPoint& c) {
+            WallView seen;
+            return view(c.wall, approach.at, seen) ? seen.distance : approach.reach;
+        };
+        std::stable_sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
+                         [&](const ContactPoint& c, const ContactPoint& d) { return distance(c) < distance(d); });
+        found.resize(before + kMostWalls);
+    }
     // On the border "inside" is a matter of rounding; the walls found in front of the point answer for it.
     if (onSurface || !b_->grid.inside(approach.at)) return;
     contact.wall = wallToLeaveThrough(approach);

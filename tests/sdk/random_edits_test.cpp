@@ -338,7 +338,7 @@ protected:
         }
     }
 
-    test::Random random_{20261125};
+    test::Random random_{20261126};
     std::vector<std::string_view> types_;
     std::vector<const Item*> everything_;
     std::deque<std::uint64_t> log_{scene.hash()};  // by place in the history

@@ -6,6 +6,7 @@
 #include <jet/items_center.hpp>
 #include <jet/plugin.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace {
@@ -49,7 +50,10 @@ const jet::PropertyTable& table()
         // With 0.1 a ball of the default mass bounces for a quarter of a minute; with 1 it does not bounce at all.
         jet::real("kd", "Damping kd", 0.3).in("force·s/unit").range(0, 1e9),
         jet::real("tear-ratio", "Tears at", 0).in("× rest length").range(0, 1e6).says("0: never tears."),
-        jet::real("thickness", "Thickness", 0).in("units").range(0, 1e6).says("How far its border is felt outside."),
+        jet::real("thickness", "Thickness", 0)
+            .in("units")
+            .range(0, 1e6)
+            .says("How far its border is felt outside; at most a tenth of its size."),
         jet::real("pressure", "Gas pressure", 0).in("force/unit").range(0, 1e9).says("Above that outside, as drawn."),
         jet::real("area-stiffness", "Area stiffness", 0)
             .in("force/unit")
@@ -81,7 +85,8 @@ Options optionsOf(const jet::EffectInput& in)
 jet::SoftMatter matterOf(const jet::EffectInput& in)
 {
     jet::SoftMatter matter;
-    matter.thickness = in.get<double>("thickness");
+    // A skin thicker than that is no skin, and would touch everything around it.
+    matter.thickness = std::min(in.get<double>("thickness"), 0.1 * in.path.bounds().size().minCoeff());
     matter.pressure = in.get<double>("pressure");
     matter.areaStiffness = in.get<double>("area-stiffness");
     matter.yield = in.get<double>("yield");
