@@ -213,6 +213,7 @@ private:
     {
         if (!json.is_object()) fail("/contributes", "must be an object of lists, e.g. { \"tools\": [...] }");
         std::vector<std::string> kinds;
+        kinds.reserve(kContributionKinds);
         for (int k = 0; k < kContributionKinds; ++k) kinds.emplace_back(manifestKey(static_cast<ContributionKind>(k)));
         for (const auto& [key, list] : json.items()) {
             const std::string pointer = "/contributes/" + key;

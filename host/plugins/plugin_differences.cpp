@@ -291,6 +291,7 @@ std::vector<FrozenPlugin> pluginsInUse(PluginManager& plugins, const Project* pr
         if (plugin->usable() && (!project || ids.contains(plugin->manifest.id)))
             found.emplace(plugin->manifest.id, plugin->manifest.version);
     std::vector<FrozenPlugin> list;
+    list.reserve(found.size());
     for (const auto& [id, version] : found) list.push_back({id, version});
     return list;
 }

@@ -35,7 +35,8 @@ public:
                 made_.kept.push_back(std::move(reference));
             } else {
                 std::string text = placeFor(reference.file);
-                rewrites[reference.scene].push_back({std::move(reference), std::move(text)});
+                std::vector<Rewrite>& ofScene = rewrites[reference.scene];
+                ofScene.push_back({std::move(reference), std::move(text)});
             }
         }
         for (auto& [scene, list] : rewrites) {

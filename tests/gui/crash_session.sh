@@ -76,7 +76,7 @@ shot 1-question
 xdotool windowactivate --sync "$window"; sleep 0.5
 xdotool key Return
 check "and goes on with the work that was not saved" find_window "Untitled\* — JET"
-check "which it does not ask for again" [ -z "$(xdotool search --onlyvisible --pid "$editor" --name "Recover unsaved")" ]
+check "which it does not ask for again" [ -z "$(xdotool search --all --onlyvisible --pid "$editor" --name "Recover unsaved")" ]
 use_tool
 shot 2-without
 check "without the plugin: the same key and click do no harm" kill -0 "$editor"
