@@ -160,14 +160,33 @@ int run(const Parsed& parsed, Session& session)
     return kFailed;
 }
 
+std::vector<std::string> commandsOf(const CLI::App& app)
+{
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    return commands;
+}
+
+/// "jet plugins lits": the word falls through to the editor's argument, and what is missing is not the mistake.
+std::optional<int> mistypedCommand(const CLI::App& app, const std::filesystem::path& word)
+{
+    if (word.empty()) return std::nullopt;
+    for (const CLI::App* group : app.get_subcommands()) {
+        if (commandsOf(*group).empty() || !group->get_subcommands().empty()) continue;
+        const std::string nearest = didYouMean(word.string(), commandsOf(*group));
+        std::fprintf(stderr, "error: '%s' is no command of 'jet %s'%s 'jet %s --help' lists them\n", word.c_str(),
+                     group->get_name().c_str(), nearest.empty() ? ";" : nearest.c_str(), group->get_name().c_str());
+        return kUsage;
+    }
+    return std::nullopt;
+}
+
 /// A word that is no command is the project to edit, if there is one of that name.
 std::optional<int> editorProject(const CLI::App& app, const std::filesystem::path& project)
 {
     std::error_code ignored;
     if (project.empty() || std::filesystem::exists(project, ignored)) return std::nullopt;
-    std::vector<std::string> commands;
-    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-    const std::string nearest = nearestWord(project.string(), commands);
+    const std::string nearest = nearestWord(project.string(), commandsOf(app));
     const std::string hint = nearest.empty() ? "'jet project new DIR' makes one, and 'jet --help' lists the commands"
                                              : "did you mean the command '" + nearest + "'?";
     std::fprintf(stderr, "%s: error: there is no such project; %s\n", project.c_str(), hint.c_str());
@@ -195,6 +214,7 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
+        if (const auto told = mistypedCommand(app, project)) return *told;
         return app.exit(problem) == 0 ? kOk : kUsage;
     }
     global.pluginPath.insert(global.pluginPath.end(), global.watch.begin(), global.watch.end());

@@ -29,6 +29,10 @@ TEST_F(ProjectCommandTest, AWordThatIsNoCommandIsAProjectThatMustExist)
     const Outcome slip = jet("plya");
     EXPECT_EQ(slip.code, 1);
     EXPECT_EQ(slip.err, "plya: error: there is no such project; did you mean the command 'play'?\n");
+    const Outcome inner = jet("plugins lits");
+    EXPECT_EQ(inner.code, 2);
+    EXPECT_EQ(inner.err,
+              "error: 'lits' is no command of 'jet plugins'; did you mean 'list'? 'jet plugins --help' lists them\n");
     // An option that may come several times takes one word each time, not the project behind it.
     EXPECT_THAT(jet("--watch x games/none").err, HasSubstr("games/none: error: there is no such project"));
     EXPECT_THAT(jet("games/none").err, HasSubstr("games/none: error: there is no such project; 'jet project new DIR'"));
