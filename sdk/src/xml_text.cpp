@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 namespace jet {
 
@@ -84,28 +85,60 @@ Result<void> XmlSource::checkBytes() const
         return Error(text[bad] == '\0' ? "there is a NUL byte here; this is not a text file of JET, or it is damaged"
                                        : "this is not UTF-8; save the file in that encoding",
                      lines.at(file, static_cast<std::ptrdiff_t>(bad)));
-    // References count outside of CDATA sections only. A file without any, the normal case, is searched once.
-    std::size_t at = text.find("&#");
-    std::size_t section = at == std::string::npos ? at : text.find("<![CDATA[");
-    while (at != std::string::npos) {
-        if (section < at) {
-            const std::size_t end = text.find("]]>", section);
-            if (end == std::string::npos) return {};  // the parser tells
-            if (end > at) at = text.find("&#", end);
-            section = text.find("<![CDATA[", end);
+    // References count outside of these only. A file without any, the normal case, is searched once.
+    static constexpr std::pair<std::string_view, std::string_view> verbatim[] = {
+        {"<![CDATA[", "]]>"}, {"<!--", "-->"}, {"<?", "?>"}};
+    const std::string_view all = text;
+    for (std::size_t at = all.find("&#"), from = 0; at != std::string_view::npos;) {
+        std::size_t begin = at;
+        std::string_view opens, closes;
+        for (const auto& [open, close] : verbatim)
+            if (const std::size_t found = all.substr(0, begin).find(open, from); found != std::string_view::npos)
+                begin = found, opens = open, closes = close;
+        if (begin < at) {
+            const std::size_t end = all.find(closes, begin + opens.size());
+            if (end == std::string_view::npos) return {};  // the parser tells
+            from = end + closes.size();
+            if (from > at) at = all.find("&#", from);
             continue;
         }
-        if (!isStorableReference(std::string_view(text).substr(at)))
+        if (!isStorableReference(all.substr(at)))
             return Error("this reference names no character; remove it",
                          lines.at(file, static_cast<std::ptrdiff_t>(at)));
-        at = text.find("&#", at + 2);
+        from = at + 2;
+        at = all.find("&#", from);
     }
     return {};
 }
 
+namespace {
+
+/// The first node with a name, value or attribute that could not be written back; null where there is none. What looks
+/// like a CDATA section to checkBytes() may stand in an attribute or a DOCTYPE, and hide a reference from it.
+pugi::xml_node firstUnstorableNode(const pugi::xml_node& root)
+{
+    const auto bad = [](const char* value) { return firstUnstorable(value) != std::string::npos; };
+    for (pugi::xml_node node = root; node;) {
+        if (bad(node.value())) return node;
+        for (const pugi::xml_attribute attribute : node.attributes())
+            if (bad(attribute.value())) return node;
+        if (node.first_child()) {
+            node = node.first_child();
+            continue;
+        }
+        while (node != root && !node.next_sibling()) node = node.parent();
+        if (node == root) break;
+        node = node.next_sibling();
+    }
+    return {};
+}
+
+}  // namespace
+
 Result<void> XmlSource::parse()
 {
     if (const auto fine = checkBytes(); !fine) return fine;
+    const bool references = text.find("&#") != std::string::npos;
     const unsigned options = pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata_single;
     const pugi::xml_parse_result result =
         document.load_buffer_inplace(text.data(), text.size(), options, pugi::encoding_utf8);
@@ -118,6 +151,9 @@ Result<void> XmlSource::parse()
         return Error(std::string("there is a second <") + second.name() + "> after <" + root.name() +
                          ">; a file holds one of them",
                      where(second));
+    if (references)
+        if (const pugi::xml_node bad = firstUnstorableNode(document))
+            return Error("a reference here names no character; remove it", where(bad));
     return {};
 }
 

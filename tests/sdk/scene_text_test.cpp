@@ -260,6 +260,13 @@ const std::vector<Wrong>& wrongs()
          "this reference names no character"},
         {"LongReference", item("", R"(type="shape" id="1" name="&#xE9)" + std::string(60, 'D') + ";\""),
          "this reference names no character"},
+        {"ReferenceAfterAHiddenSection",
+         "<?note <![CDATA[ ?>" + item("", R"(type="shape" id="1" name="&#xE9)" + std::string(100, 'E') + ";\""),
+         "this reference names no character"},
+        {"ReferenceAfterASectionInAnAttribute",
+         item("", R"(type="layer" id="1" name="<![CDATA[")") +
+             item("", R"(type="shape" id="2" name="&#xE9)" + std::string(100, 'E') + ";\"") + "<!-- ]]> -->",
+         "names no character"},
         {"SecondRoot", "</scene><scene version=\"1\">", "there is a second <scene>"},
     };
     return all;
