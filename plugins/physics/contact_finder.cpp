@@ -41,7 +41,6 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
                          StepStats& stats)
 {
     const auto start = std::chrono::steady_clock::now();
-    updatePoints(state);
     // Nothing can meet where there is only one body.
     std::size_t bodies = 0;
     for (const BodyRecord& body : state.bodies)
@@ -52,6 +51,7 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
         contacts.clear();
         return;
     }
+    updatePoints(state);
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
     for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);

@@ -29,18 +29,22 @@ void dampTurning(Nodes& nodes, const BodyRecord& body, double kept)
 
 }  // namespace
 
-void integrateVelocities(State& state, const WorldSettings& settings, const soft::Kernels& kernels, double h)
+void integrateVelocities(State& state, const WorldSettings& settings, SoftSprings& springs, double h, bool pushed)
 {
     Nodes& nodes = state.nodes;
     const double linear = settings.applyDamping ? decay(settings.linearDamping * h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * h) : 1;
-    for (const BodyRecord& body : state.bodies) {
+    springs.accelerate(state, h, settings.applyGravity ? settings.gravity : Vec2(0, 0), linear, pushed);
+    for (Index handle = 0; handle < state.bodies.size(); ++handle) {
+        const BodyRecord& body = state.bodies[handle];
         const Vec2 gravity = settings.applyGravity ? Vec2(body.gravityScale * settings.gravity) : Vec2(0, 0);
         const Index first = body.nodes.first;
         if (body.nodes.count == 0) continue;
         if (!body.rigid) {
-            kernels.accelerate(nodes.velocity[first].data(), nodes.force[first].data(), &nodes.invMass[first],
-                               body.nodes.count, {h, gravity.x(), gravity.y(), linear});
+            if (!springs.isWide(handle))
+                springs.kernels().accelerate(nodes.velocity[first].data(), nodes.force[first].data(),
+                                             &nodes.invMass[first], body.nodes.count,
+                                             {h, gravity.x(), gravity.y(), linear}, nullptr);
             if (angular != 1 && !body.fixed) dampTurning(nodes, body, angular);
             continue;
         }

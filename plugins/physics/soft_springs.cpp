@@ -1,6 +1,8 @@
 #include "soft_springs.hpp"
 
+#include <array>
 #include <limits>
+#include <memory>
 
 namespace jet::physics {
 
@@ -38,7 +40,7 @@ constexpr std::size_t kFewSprings = 16;
 // Numbers the kernels take; outside this range, products could leave that of single.
 constexpr double kLeastSingle = 1e-15, kMostSingle = 1e15;
 
-bool isWide(const SoftBodyDef& def)
+bool fitsKernels(const SoftBodyDef& def)
 {
     const auto fits = [](double value) { return value == 0 || (value >= kLeastSingle && value <= kMostSingle); };
     if (def.springs.size() < kFewSprings || def.particles.size() < soft::kLanes) return false;
@@ -58,7 +60,8 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
     Mesh& mesh = meshes_[body];
     mesh.nodes = state.bodies[body].nodes;
     mesh.springs = {springCount(), static_cast<Index>(def.springs.size())};
-    std::vector<soft::Ends> ends;
+    for (const SpringDef& spring : def.springs) mesh.tears |= spring.tearRatio > 0;
+    if (mesh.tears) tear_.resize(a_.size(), 0);
     for (const SpringDef& spring : def.springs) {
         a_.push_back(nodeOf[spring.a]);
         b_.push_back(nodeOf[spring.b]);
@@ -66,29 +69,61 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         if (!drawn_.empty()) drawn_.push_back(spring.restLength);
         ks_.push_back(spring.ks);
         kd_.push_back(spring.kd);
-        tear_.push_back(std::max(spring.tearRatio, 0.0));
+        if (!tear_.empty() || mesh.tears) tear_.push_back(std::max(spring.tearRatio, 0.0));
         alive_.push_back(spring.a != spring.b);
-        stiffness_.push_back(0);
-        damping_.push_back(0);
-        mesh.tears |= spring.tearRatio > 0;
-        ends.push_back({a_.back() - mesh.nodes.first, b_.back() - mesh.nodes.first});
     }
-    if (isWide(def)) {
-        mesh.blocks = soft::arrange(ends, mesh.nodes.count);
-        mesh.coefficients.assign(mesh.blocks.count() * 3 * soft::kLanes, 0);
+    if (fitsKernels(def)) {
+        mesh.wide = true;
+        mesh.topology = soft::Topology::of(def);
         measureBias(state, mesh);
-        if (mesh.tears) watchTears(mesh);
+        arranged_ = false;
     }
     for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
 }
 
-/// From now on the kernels watch the lengths of the body's springs.
-void SoftSprings::watchTears(Mesh& mesh)
+/// Finds which bodies are computed together.
+void SoftSprings::arrange(const State& state)
 {
-    if (mesh.coefficients.empty() || !mesh.tear.empty()) return;
-    mesh.tear.assign(mesh.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
-    mesh.springAt.assign(mesh.tear.size(), kNone);
-    for (Index i = 0; i < mesh.springs.count; ++i) mesh.springAt[mesh.blocks.seat[i]] = mesh.springs.first + i;
+    if (arranged_) return;
+    arranged_ = true;
+    std::vector<soft::Candidate> candidates;
+    for (Index body = 0; body < meshes_.size(); ++body) {
+        const Mesh& mesh = meshes_[body];
+        if (!mesh.wide) continue;
+        soft::Candidate& candidate = candidates.emplace_back();
+        candidate.body = body, candidate.topology = mesh.topology;
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
+            candidate.ends.push_back({a_[i] - mesh.nodes.first, b_[i] - mesh.nodes.first});
+    }
+    batches_ = soft::batchesOf(state, std::move(candidates), std::move(batches_));
+    std::size_t room = 0, most = 0;
+    for (Index k = 0; k < batches_.size(); ++k) {
+        soft::Batch& batch = batches_[k];
+        batch.coefficients.assign(batch.blocks.count() * 3 * soft::kLanes, 0);
+        batch.tear.clear();
+        for (Index lane = 0; lane < batch.bodies.size(); ++lane)
+            meshes_[batch.bodies[lane]].batch = k, meshes_[batch.bodies[lane]].lane = lane;
+        const std::size_t size = batch.planeSize();
+        room = std::max(room, 6 * (size + 16) + (batch.gathers() ? 4 * size : 0) + 16);
+        most = std::max(most, batch.blocks.count());
+    }
+    planes_.resize(room);
+    tornBlocks_.resize(most);
+}
+
+/// From now on the kernels watch the lengths of the batch's springs.
+void SoftSprings::watchTears(soft::Batch& batch)
+{
+    const auto tears = [&](Index body) {
+        return meshes_[body].tears || (meshes_[body].uniform && meshes_[body].tearRatio > 0);
+    };
+    if (!batch.tear.empty() || std::none_of(batch.bodies.begin(), batch.bodies.end(), tears)) return;
+    batch.tear.assign(batch.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
+    batch.springAt.assign(batch.tear.size(), kNone);
+    for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
+        const Range& springs = meshes_[batch.bodies[lane]].springs;
+        for (Index i = 0; i < springs.count; ++i) batch.springAt[batch.seat(lane, i)] = springs.first + i;
+    }
 }
 
 void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf)
@@ -125,8 +160,17 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state) const
 
 void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h, bool plain)
 {
-    if (plain) return prepareAsTheyAre();
-    for (Mesh& mesh : meshes_) prepareMesh(state, bounds, mesh, h);
+    arrange(state);
+    for (soft::Batch& batch : batches_) watchTears(batch);
+    for (Mesh& mesh : meshes_) {
+        stiffness_.resize(mesh.springs.count), damping_.resize(mesh.springs.count);
+        for (Index i = 0; i < mesh.springs.count; ++i)
+            stiffness_[i] = stiffnessOf(mesh, mesh.springs.first + i),
+            damping_[i] = dampingOf(mesh, mesh.springs.first + i);
+        if (!plain) prepareMesh(state, bounds, mesh, h);
+        fill(mesh);
+    }
+    if (plain) return;
     for (Angular& spring : angular_) {
         const double share =
             std::min({bounds.share(spring.a, h), bounds.share(spring.centre, h), bounds.share(spring.b, h)});
@@ -135,30 +179,23 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
     }
 }
 
-void SoftSprings::prepareAsTheyAre()
-{
-    for (Mesh& mesh : meshes_) {
-        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
-            stiffness_[i] = stiffnessOf(mesh, i), damping_[i] = dampingOf(mesh, i);
-        fillLanes(mesh);
-    }
-}
-
-void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, Mesh& mesh, double h)
+/// Turns stiffness and damping as they are into those a substep can bear.
+void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, const Mesh& mesh, double h)
 {
     const Nodes& nodes = state.nodes;
     const auto stable = [&](Index n) { return h * h * bounds.elastic(n) + 2 * h * bounds.damping(n) <= 2; };
     const auto share = [&](Index n) { return stable(n) ? 1.0 : bounds.share(n, h); };
     load_.assign(mesh.nodes.count, 0.0);
-    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
-        const double inverse = nodes.invMass[a_[i]] + nodes.invMass[b_[i]];
-        const double ks = stiffnessOf(mesh, i);
-        stiffness_[i] = ks * std::min(share(a_[i]), share(b_[i]));
+    for (Index k = 0; k < mesh.springs.count; ++k) {
+        const Index a = a_[mesh.springs.first + k], b = b_[mesh.springs.first + k];
+        const double inverse = nodes.invMass[a] + nodes.invMass[b];
+        const double ks = stiffness_[k];
+        stiffness_[k] = ks * std::min(share(a), share(b));
         // The stiffness taken away acts on through its implicit part, h ks v.
-        const double wanted = dampingOf(mesh, i) + h * (ks - stiffness_[i]);
-        damping_[i] = inverse > 0 ? (1 - decay(h * wanted * inverse)) / (h * inverse) : 0;
-        if (a_[i] == b_[i]) continue;
-        for (Index node : {a_[i], b_[i]}) load_[node - mesh.nodes.first] += h * damping_[i] * nodes.invMass[node];
+        const double wanted = damping_[k] + h * (ks - stiffness_[k]);
+        damping_[k] = inverse > 0 ? (1 - decay(h * wanted * inverse)) / (h * inverse) : 0;
+        if (a == b) continue;
+        for (Index node : {a, b}) load_[node - mesh.nodes.first] += h * damping_[k] * nodes.invMass[node];
     }
     for (Index k = 0; k < mesh.nodes.count; ++k) {
         const Index node = mesh.nodes.first + k;
@@ -166,9 +203,10 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
         const double room = 1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0));
         load_[k] = load_[k] > room ? room / load_[k] : 1;
     }
-    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
-        damping_[i] *= std::min(load_[a_[i] - mesh.nodes.first], load_[b_[i] - mesh.nodes.first]);
-    fillLanes(mesh);
+    for (Index k = 0; k < mesh.springs.count; ++k) {
+        const Index i = mesh.springs.first + k;
+        damping_[k] *= std::min(load_[a_[i] - mesh.nodes.first], load_[b_[i] - mesh.nodes.first]);
+    }
 }
 
 /// A body drawn at rest shall rest: what rounding to single adds to the lengths of springs is added to what they rest
@@ -187,60 +225,135 @@ void SoftSprings::measureBias(const State& state, Mesh& mesh)
     }
 }
 
-void SoftSprings::fillLanes(Mesh& mesh)
+/// Puts what was prepared of the body where its springs are computed.
+void SoftSprings::fill(Mesh& mesh)
 {
-    if (mesh.coefficients.empty()) return;
+    if (!mesh.wide) {
+        mesh.stiffness = stiffness_, mesh.damping = damping_;
+        return;
+    }
+    soft::Batch& batch = batches_[mesh.batch];
     for (Index k = 0; k < mesh.springs.count; ++k) {
         const Index i = mesh.springs.first + k;
-        const std::uint32_t block = mesh.blocks.seat[k] / soft::kLanes, lane = mesh.blocks.seat[k] % soft::kLanes;
-        float* at = mesh.coefficients.data() + std::size_t{block} * 3 * soft::kLanes + lane;
-        at[0] = static_cast<float>(rest_[i] + mesh.bias[k]);
-        at[soft::kLanes] = alive_[i] ? static_cast<float>(stiffness_[i]) : 0;
-        at[2 * soft::kLanes] = alive_[i] ? static_cast<float>(damping_[i]) : 0;
-        if (mesh.tear.empty()) continue;
+        const std::uint32_t seat = batch.seat(mesh.lane, k);
+        float* at = &batch.coefficients[std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes];
+        at[soft::kLanes] = alive_[i] ? static_cast<float>(stiffness_[k]) : 0;
+        at[2 * soft::kLanes] = alive_[i] ? static_cast<float>(damping_[k]) : 0;
+        if (batch.tear.empty()) continue;
         const double longest = tearLength(mesh, i);
-        mesh.tear[mesh.blocks.seat[k]] =
+        batch.tear[seat] =
             alive_[i] && longest > 0 ? static_cast<float>(kTearWatch * longest) : std::numeric_limits<float>::max();
+    }
+    fillRests(mesh);
+}
+
+void SoftSprings::fillRests(const Mesh& mesh)
+{
+    if (!mesh.wide) return;
+    soft::Batch& batch = batches_[mesh.batch];
+    for (Index k = 0; k < mesh.springs.count; ++k) {
+        const std::uint32_t seat = batch.seat(mesh.lane, k);
+        batch.coefficients[std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes] =
+            static_cast<float>(rest_[mesh.springs.first + k] + static_cast<double>(mesh.bias[k]));
     }
 }
 
-void SoftSprings::addForces(State& state, double h)
+void SoftSprings::addForces(State& state)
 {
-    static_cast<void>(h);
-    for (Mesh& mesh : meshes_) {
-        if (mesh.springs.count == 0) continue;
-        if (mesh.coefficients.empty()) {
-            pullOneByOne(state, mesh);
+    for (Mesh& mesh : meshes_)
+        if (!mesh.wide) pullOneByOne(state, mesh);
+}
+
+/// Where the batch's particles lie, each plane at a boundary of 32 bytes.
+soft::Planes SoftSprings::planes(const soft::Batch& batch)
+{
+    const std::size_t size = batch.planeSize(), step = (size + 8 + 7) & ~std::size_t{7};
+    void* start = planes_.data();
+    std::size_t room = planes_.size() * sizeof(float);
+    auto* at = static_cast<float*>(std::align(32, step * sizeof(float), start, room));
+    return {at,
+            at + step,
+            at + 2 * step,
+            at + 3 * step,
+            at + 4 * step,
+            at + 5 * step,
+            batch.gathers() ? at + 6 * step : nullptr};
+}
+
+void SoftSprings::accelerate(State& state, double h, const Vec2& gravity, double kept, bool pushed)
+{
+    Nodes& nodes = state.nodes;
+    double *velocity = nodes.velocity.data()->data(), *force = pushed ? nodes.force.data()->data() : nullptr;
+    for (soft::Batch& batch : batches_) {
+        std::array<soft::Frame, soft::kLanes> frames;
+        std::array<soft::VelocityStep, soft::kLanes> steps;
+        for (Index lane = 0; lane < soft::kLanes; ++lane) {
+            const Index first = meshes_[bodyOf(batch, lane)].nodes.first;
+            const Vec2 &at = nodes.position[first], &moving = nodes.velocity[first];
+            frames[lane] = {at.x(), at.y(), moving.x(), moving.y()};
+        }
+        const soft::Planes planes = this->planes(batch);
+        pull(state, batch, frames, planes);
+        std::array<double, 2 * std::size_t{soft::kLanes}> left{};
+        if (batch.alike()) {
+            kernels_->sumAlike(planes, batch.rows, left.data());
         } else {
-            pullWide(state, mesh);
+            std::array<double, 2> sums{};
+            kernels_->sum(planes, batch.rows, sums.data());
+            left[0] = sums[0], left[soft::kLanes] = sums[1];
+        }
+        // What rounding leaves of forces that sum to nothing is taken out of the whole body's acceleration.
+        for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
+            const BodyRecord& body = state.bodies[batch.bodies[lane]];
+            Vec2 net = Vec2(left[lane], left[soft::kLanes + lane]) / body.mass;
+            if (!(net.squaredNorm() < 1e300)) net = Vec2(0, 0);
+            const Vec2 fall = body.gravityScale * gravity - net;
+            steps[lane] = {h, fall.x(), fall.y(), kept};
+        }
+        if (batch.alike()) {
+            kernels_->accelerateAlike(velocity, force, nodes.invMass.data(), batch.nodeAt.data(), batch.rows,
+                                      batch.bodies.size(), steps.data(), planes);
+        } else {
+            const std::size_t first = meshes_[batch.bodies[0]].nodes.first;
+            kernels_->accelerate(velocity + 2 * first, force ? force + 2 * first : nullptr, &nodes.invMass[first],
+                                 batch.rows, steps[0], &planes);
         }
     }
 }
 
-void SoftSprings::pullWide(State& state, Mesh& mesh)
+void SoftSprings::pull(State& state, soft::Batch& batch, std::span<const soft::Frame> frames,
+                       const soft::Planes& planes)
 {
-    Nodes& nodes = state.nodes;
-    const Index first = mesh.nodes.first;
-    const Vec2 &at = nodes.position[first], &moving = nodes.velocity[first];
-    relative_.resize(std::max<std::size_t>(relative_.size(), 4 * std::size_t{mesh.nodes.count}));
-    tornBlocks_.resize(std::max(tornBlocks_.size(), mesh.blocks.count()));
-    kernels_->relate(nodes.position[first].data(), nodes.velocity[first].data(), mesh.nodes.count,
-                     {at.x(), at.y(), moving.x(), moving.y()}, relative_.data());
-    const soft::SpringBlocks blocks{mesh.blocks.runs.data(),  mesh.blocks.runs.size(),
-                                    mesh.blocks.ends.data(),  mesh.blocks.ends.size() / (2 * soft::kLanes),
-                                    mesh.coefficients.data(), mesh.tear.empty() ? nullptr : mesh.tear.data(),
-                                    tornBlocks_.data()};
-    const std::size_t torn = kernels_->pull(blocks, relative_.data(), nodes.force[first].data());
-    for (std::size_t i = 0; i < torn; ++i) tearIn(state, mesh, tornBlocks_[i]);
+    const double *position = state.nodes.position.data()->data(), *velocity = state.nodes.velocity.data()->data();
+    if (batch.alike()) {
+        kernels_->relateAlike(position, velocity, batch.nodeAt.data(), batch.rows, frames.data(), planes);
+    } else {
+        const std::size_t first = 2 * std::size_t{meshes_[batch.bodies[0]].nodes.first};
+        kernels_->relate(position + first, velocity + first, batch.rows, frames[0], planes);
+    }
+    const soft::Blocks& blocks = batch.blocks;
+    const std::size_t torn = kernels_->pull({blocks.runs.data(), blocks.runs.size(), blocks.ends.data(),
+                                             blocks.ends.size() / (2 * soft::kLanes), batch.coefficients.data(),
+                                             batch.tear.empty() ? nullptr : batch.tear.data(), tornBlocks_.data()},
+                                            planes);
+    for (std::size_t i = 0; i < torn; ++i) tearIn(state, batch, tornBlocks_[i]);
+}
+
+/// Lanes without a body stand for the first.
+Index SoftSprings::bodyOf(const soft::Batch& batch, Index lane) const
+{
+    return batch.bodies[lane < batch.bodies.size() ? lane : 0];
 }
 
 /// The kernels only warn: whether a spring of the block is too long is decided in double, so that it tears at exactly
 /// its length. Its last force, of a length that differs by rounding, still acts.
-void SoftSprings::tearIn(const State& state, Mesh& mesh, std::size_t block)
+void SoftSprings::tearIn(const State& state, soft::Batch& batch, std::size_t block)
 {
     for (Index lane = 0; lane < soft::kLanes; ++lane) {
-        const Index i = mesh.springAt[block * soft::kLanes + lane];
-        if (i == kNone || !alive_[i] || !(tearLength(mesh, i) > 0)) continue;
+        const Index i = batch.springAt[block * soft::kLanes + lane];
+        if (i == kNone || !alive_[i]) continue;
+        Mesh& mesh = meshes_[bodyOf(batch, batch.alike() ? lane : 0)];
+        if (!(tearLength(mesh, i) > 0)) continue;
         const double length = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm();
         if (length > tearLength(mesh, i)) tear(mesh, i);
     }
@@ -251,14 +364,15 @@ void SoftSprings::tear(Mesh& mesh, Index spring)
     alive_[spring] = 0;
     ++torn_[&mesh - meshes_.data()];
     anyTorn_ = true;
-    if (mesh.coefficients.empty()) return;
-    const std::uint32_t seat = mesh.blocks.seat[spring - mesh.springs.first];
-    float* at = mesh.coefficients.data() + std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes;
+    if (!mesh.wide) return;
+    soft::Batch& batch = batches_[mesh.batch];
+    const std::uint32_t seat = batch.seat(mesh.lane, spring - mesh.springs.first);
+    float* at = &batch.coefficients[std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes];
     at[soft::kLanes] = at[2 * soft::kLanes] = 0;
-    mesh.tear[seat] = std::numeric_limits<float>::max();
+    batch.tear[seat] = std::numeric_limits<float>::max();
 }
 
-void SoftSprings::pullOneByOne(State& state, const Mesh& mesh)
+void SoftSprings::pullOneByOne(State& state, Mesh& mesh)
 {
     Nodes& nodes = state.nodes;
     for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
@@ -268,13 +382,14 @@ void SoftSprings::pullOneByOne(State& state, const Mesh& mesh)
         const double length = std::sqrt(apart.squaredNorm());
         const double longest = tearLength(mesh, i);
         if (longest > 0 && length > longest) {
-            tear(const_cast<Mesh&>(mesh), i);
+            tear(mesh, i);
             continue;
         }
         if (!(length > 1e-12)) continue;
         const Vec2 along = apart / length;
         const double speed = (nodes.velocity[a] - nodes.velocity[b]).dot(along);
-        const Vec2 force = (stiffness_[i] * (length - rest_[i]) + damping_[i] * speed) * along;
+        const Index k = i - mesh.springs.first;
+        const Vec2 force = (mesh.stiffness[k] * (length - rest_[i]) + mesh.damping[k] * speed) * along;
         nodes.force[a] -= force;
         nodes.force[b] += force;
     }
@@ -285,7 +400,6 @@ void SoftSprings::set(Index body, double ks, double kd, double tearRatio)
     Mesh& mesh = meshes_[body];
     mesh.uniform = true;
     mesh.ks = ks, mesh.kd = kd, mesh.tearRatio = std::max(tearRatio, 0.0);
-    if (mesh.tearRatio > 0) watchTears(mesh);
 }
 
 double SoftSprings::tension(const State& state, Index body, Index spring) const
@@ -319,7 +433,7 @@ void SoftSprings::flow(const State& state, double dt)
                                   (1 + matter.mostFlow) * drawn_[i]);
             flowed = true;
         }
-        if (flowed) fillLanes(mesh);
+        if (flowed) fillRests(mesh);
     }
 }
 
@@ -327,12 +441,10 @@ void SoftSprings::restored()
 {
     anyTorn_ = false;
     for (std::size_t body = 0; body < meshes_.size(); ++body) {
-        Mesh& mesh = meshes_[body];
+        const Mesh& mesh = meshes_[body];
         torn_[body] = 0;
-        if (mesh.uniform && mesh.tearRatio > 0) watchTears(mesh);
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) torn_[body] += !alive_[i] && a_[i] != b_[i];
         anyTorn_ |= torn_[body] > 0;
-        fillLanes(mesh);
     }
 }
 

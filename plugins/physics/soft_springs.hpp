@@ -1,20 +1,21 @@
 // Springs and angular springs inside soft bodies (thesis §2.4.3.2, §2.4.3.3).
 //
-// Order of calls: add each body -> addTo the bounds -> prepare for a substep length -> addForces and applyAngular, each
-// substep.
+// Order of calls: add each body -> addTo the bounds -> prepare for a substep length -> addForces, accelerate and
+// applyAngular, each substep.
 //
-// Springs are forces of the state a substep starts from, 8 at a time (soft/kernels.hpp), so their order does not
-// matter. Why no stiffness and no damping explodes stands in stiffness.hpp. The damping constant of a substep is
-// (1 - exp(-h kd w)) / (h w), w = 1/m + 1/m: the amplitude of a single spring then decays exactly as exp(-kd w t / 2).
-// Fully implicit springs were an alternative: stable at any stiffness too, but they damp what the author asked to
+// Springs are forces of the state a substep starts from, 8 at a time (soft/kernels.hpp, soft/batch.hpp), so their order
+// does not matter. Why no stiffness and no damping explodes stands in stiffness.hpp. The damping constant of a substep
+// is (1 - exp(-h kd w)) / (h w), w = 1/m + 1/m: the amplitude of a single spring then decays exactly as exp(-kd w t /
+// 2). Fully implicit springs were an alternative: stable at any stiffness too, but they damp what the author asked to
 // swing.
 #pragma once
 
+#include "soft/batch.hpp"
 #include "soft/kernels.hpp"
-#include "soft/layout.hpp"
 #include "state.hpp"
 #include "stiffness.hpp"
 
+#include <span>
 #include <utility>
 
 namespace jet::physics {
@@ -42,8 +43,13 @@ public:
     void use(const soft::Kernels& kernels) { kernels_ = &kernels; }
     const soft::Kernels& kernels() const { return *kernels_; }
 
-    /// Adds the springs' forces on the nodes of each body.
-    void addForces(State&, double h);
+    /// Adds the forces of springs computed in double, one by one, to those on the nodes.
+    void addForces(State&);
+    /// The others: changes the velocities of their bodies over h, by springs, gravity and damping (`kept`: the part it
+    /// leaves), and by the forces on the nodes where there are any (`pushed`); those are used up.
+    void accelerate(State&, double h, const Vec2& gravity, double kept, bool pushed);
+    /// Is the body one of those that accelerate() moves?
+    bool isWide(Index body) const { return meshes_[body].wide; }
     /// Changes velocities by the impulses of angular springs over h. `backwards` alternates, so that no end of the list
     /// is favoured.
     void applyAngular(State&, double h, bool backwards);
@@ -87,14 +93,14 @@ private:
         double stiffness = 0;   // ks after softening
         double damping = 0;     // kd and what softening adds
     };
-    /// Springs of one body as the kernels take them.
+    /// Springs of one body.
     struct Mesh {
         Range nodes, springs;
-        soft::Blocks blocks;
-        std::vector<float> coefficients;      // see SpringBlocks; empty: the body is computed in double, one by one
-        std::vector<float> tear;              // empty: none tears
-        std::vector<float> bias;              // [springs] what single lengths differ by from true ones, as added
-        std::vector<std::uint32_t> springAt;  // [blocks * 8] spring of each lane; filled where springs tear
+        bool wide = false;  // computed by the kernels, not in double, one by one
+        Index batch = 0, lane = 0;
+        soft::Topology topology;
+        std::vector<float> bias;                 // [springs] what single lengths differ by from true ones, as added
+        std::vector<double> stiffness, damping;  // [springs] for the prepared h, where they are computed one by one
         bool tears = false;
         bool uniform = false;  // ks, kd and tearRatio stand for those of all its springs
         double ks = 0, kd = 0, tearRatio = 0;
@@ -106,33 +112,39 @@ private:
     /// Length at which the spring tears; 0: never.
     double tearLength(const Mesh& mesh, Index i) const
     {
-        return (mesh.uniform ? mesh.tearRatio : tear_[i]) * (drawn_.empty() ? rest_[i] : drawn_[i]);
+        return (mesh.uniform ? mesh.tearRatio : tearRatio(i)) * (drawn_.empty() ? rest_[i] : drawn_[i]);
     }
-    void watchTears(Mesh&);
-    void prepareAsTheyAre();
-    void prepareMesh(const State&, const StiffnessBounds&, Mesh&, double h);
+    double tearRatio(Index i) const { return tear_.empty() ? 0 : tear_[i]; }
+    void arrange(const State&);
+    void watchTears(soft::Batch&);
+    void prepareMesh(const State&, const StiffnessBounds&, const Mesh&, double h);
     void measureBias(const State&, Mesh&);
-    void fillLanes(Mesh&);
-    void pullWide(State&, Mesh&);
-    void pullOneByOne(State&, const Mesh&);
-    void tearIn(const State&, Mesh&, std::size_t block);
+    void fill(Mesh&);
+    void fillRests(const Mesh&);
+    void pull(State&, soft::Batch&, std::span<const soft::Frame> frames, const soft::Planes&);
+    soft::Planes planes(const soft::Batch&);
+    void pullOneByOne(State&, Mesh&);
+    void tearIn(const State&, soft::Batch&, std::size_t block);
     void tear(Mesh&, Index spring);
+    Index bodyOf(const soft::Batch&, Index lane) const;
     void applyAngularSpring(State&, Angular&, double h);
 
     const soft::Kernels* kernels_ = &soft::bestKernels();
-    std::vector<Index> a_, b_;                   // nodes
-    std::vector<double> rest_, ks_, kd_, tear_;  // tear_: times the rest length as drawn, 0 = never
-    std::vector<double> drawn_;                  // rest lengths before any flow; empty: none flowed
+    std::vector<Index> a_, b_;  // nodes
+    std::vector<double> rest_, ks_, kd_;
+    std::vector<double> tear_;   // times the rest length as drawn, 0 = never; empty: none tears
+    std::vector<double> drawn_;  // rest lengths before any flow; empty: none flowed
     std::vector<std::uint8_t> alive_;
-    std::vector<double> stiffness_, damping_;  // for the prepared h
-    std::vector<Mesh> meshes_;                 // [bodies]; rigid ones have no springs
+    std::vector<Mesh> meshes_;  // [bodies]; rigid ones have no springs
+    std::vector<soft::Batch> batches_;
+    bool arranged_ = false;  // do the batches hold all bodies?
     bool anyTorn_ = false;
     std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;
-    // Scratch of the body at work.
-    std::vector<float> relative_;
+    // Scratch of the body or batch at work.
+    std::vector<float> planes_;
     std::vector<std::uint32_t> tornBlocks_;
-    std::vector<double> load_;
+    std::vector<double> stiffness_, damping_, load_;
 };
 
 }  // namespace jet::physics

@@ -125,9 +125,10 @@ void World::substep(double h, int index, int count)
             for (Index n = 0; n < state_.nodes.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);
         if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
-        springs_.addForces(state_, h);
+        springs_.addForces(state_);
         if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
-        integrateVelocities(state_, settings_, springs_.kernels(), h);
+        const bool pushed = pushed_ || plain_ || actuators_.any() || fields_.count() > 0;
+        integrateVelocities(state_, settings_, springs_, h, pushed);
         const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
         soft::applyPressure(state_, h);

@@ -219,7 +219,7 @@ Outcome composite(const Lab& lab)
     }
     const auto force = world->addForce({on(body, {20, 0}), {-3000, 0}});
     world->addForce({on(body, {-20, 0}), {3000, 0}});
-    run(*world, 1);
+    run(*world, 0.4);  // not longer: like a pencil on its tip, it would turn
     const double pressed = areaRatio(*world, body, def);
     world->setForce(force, {0, 0});
     world->setForce(force + 1, {0, 0});

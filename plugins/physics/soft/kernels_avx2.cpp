@@ -5,12 +5,11 @@ namespace jet::physics::soft {
 namespace {
 
 struct Avx2 {
-    using F8 = __m256;  // springs 0 2 4 6 1 3 5 7
-    struct Offsets {
-        F8 x, y, vx, vy;
-    };
+    using F8 = __m256;
 
     static F8 load(const float* p) { return _mm256_loadu_ps(p); }
+    static void store(float* p, F8 a) { _mm256_storeu_ps(p, a); }
+    static F8 zero() { return _mm256_setzero_ps(); }
     static F8 one() { return _mm256_set1_ps(1); }
     static F8 add(F8 a, F8 b) { return _mm256_add_ps(a, b); }
     static F8 sub(F8 a, F8 b) { return _mm256_sub_ps(a, b); }
@@ -23,68 +22,67 @@ struct Avx2 {
     }
     static bool anyAbove(F8 a, F8 b) { return _mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_GT_OQ)) != 0; }
 
-    static Offsets transpose(__m256 p01, __m256 p23, __m256 p45, __m256 p67)
+    /// of(k): four numbers of lane k.
+    template <class Of>
+    static void transpose(Of&& of, F8& x, F8& y, F8& vx, F8& vy)
     {
-        const __m256d low0 = _mm256_castps_pd(_mm256_unpacklo_ps(p01, p23));
-        const __m256d low1 = _mm256_castps_pd(_mm256_unpacklo_ps(p45, p67));
-        const __m256d high0 = _mm256_castps_pd(_mm256_unpackhi_ps(p01, p23));
-        const __m256d high1 = _mm256_castps_pd(_mm256_unpackhi_ps(p45, p67));
-        return {_mm256_castpd_ps(_mm256_unpacklo_pd(low0, low1)), _mm256_castpd_ps(_mm256_unpackhi_pd(low0, low1)),
-                _mm256_castpd_ps(_mm256_unpacklo_pd(high0, high1)), _mm256_castpd_ps(_mm256_unpackhi_pd(high0, high1))};
-    }
-    static Offsets offsets(const float* a, const float* b)
-    {
-        const auto d = [=](int i) { return _mm256_sub_ps(_mm256_loadu_ps(a + 8 * i), _mm256_loadu_ps(b + 8 * i)); };
-        return transpose(d(0), d(1), d(2), d(3));
-    }
-    static __m256 pair(const float* relative, std::uint32_t first, std::uint32_t second)
-    {
-        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(relative + 4 * std::size_t{first})),
-                                    _mm_loadu_ps(relative + 4 * std::size_t{second}), 1);
-    }
-    static Offsets offsets(const float* relative, const std::uint32_t* a, const std::uint32_t* b)
-    {
-        const auto d = [=](int i) {
-            return _mm256_sub_ps(pair(relative, a[i], a[i + 1]), pair(relative, b[i], b[i + 1]));
+        const auto both = [&](std::uint32_t k) {
+            return _mm256_insertf128_ps(_mm256_castps128_ps256(of(k)), of(k + 4), 1);
         };
-        return transpose(d(0), d(2), d(4), d(6));
+        const __m256 p0 = both(0), p1 = both(1), p2 = both(2), p3 = both(3);
+        const __m256d low0 = _mm256_castps_pd(_mm256_unpacklo_ps(p0, p1));
+        const __m256d low1 = _mm256_castps_pd(_mm256_unpacklo_ps(p2, p3));
+        const __m256d high0 = _mm256_castps_pd(_mm256_unpackhi_ps(p0, p1));
+        const __m256d high1 = _mm256_castps_pd(_mm256_unpackhi_ps(p2, p3));
+        x = _mm256_castpd_ps(_mm256_unpacklo_pd(low0, low1)), y = _mm256_castpd_ps(_mm256_unpackhi_pd(low0, low1));
+        vx = _mm256_castpd_ps(_mm256_unpacklo_pd(high0, high1)),
+        vy = _mm256_castpd_ps(_mm256_unpackhi_pd(high0, high1));
     }
 
-    /// The forces of springs 0 2, 1 3, 4 6, 5 7 as doubles.
-    static void widen(F8 fx, F8 fy, __m256d (&f)[4])
+    /// Four pairs of doubles in a row from one origin, as four singles along x and four along y.
+    static void narrow(const double* from, const double* origin, float* x, float* y)
     {
-        const __m256 first = _mm256_unpacklo_ps(fx, fy), last = _mm256_unpackhi_ps(fx, fy);
-        f[0] = _mm256_cvtps_pd(_mm256_castps256_ps128(first));
-        f[1] = _mm256_cvtps_pd(_mm256_extractf128_ps(first, 1));
-        f[2] = _mm256_cvtps_pd(_mm256_castps256_ps128(last));
-        f[3] = _mm256_cvtps_pd(_mm256_extractf128_ps(last, 1));
+        const __m256d start = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(origin));
+        const __m128 low = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_loadu_pd(from), start));
+        const __m128 high = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_loadu_pd(from + 4), start));
+        _mm_storeu_ps(x, _mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)));
+        _mm_storeu_ps(y, _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
     }
-    static void exert(double* a, double* b, F8 fx, F8 fy)
+
+    /// Two nodes at a time; returns how many were done.
+    static std::size_t accelerate(double* velocity, const double* inverseMass, std::size_t nodes,
+                                  const VelocityStep& step, const Planes& in)
     {
-        __m256d f[4];
-        widen(fx, fy, f);
-        const __m256d pairs[4] = {_mm256_permute2f128_pd(f[0], f[1], 0x20), _mm256_permute2f128_pd(f[0], f[1], 0x31),
-                                  _mm256_permute2f128_pd(f[2], f[3], 0x20), _mm256_permute2f128_pd(f[2], f[3], 0x31)};
-        for (int i = 0; i < 4; ++i) _mm256_storeu_pd(a + 4 * i, _mm256_sub_pd(_mm256_loadu_pd(a + 4 * i), pairs[i]));
-        for (int i = 0; i < 4; ++i) _mm256_storeu_pd(b + 4 * i, _mm256_add_pd(_mm256_loadu_pd(b + 4 * i), pairs[i]));
-    }
-    static void exert(double* force, const std::uint32_t* a, const std::uint32_t* b, F8 fx, F8 fy)
-    {
-        __m256d f[4];
-        widen(fx, fy, f);
-        const auto act = [=](std::uint32_t nodeA, std::uint32_t nodeB, __m128d by) {
-            double *atA = force + 2 * std::size_t{nodeA}, *atB = force + 2 * std::size_t{nodeB};
-            _mm_storeu_pd(atA, _mm_sub_pd(_mm_loadu_pd(atA), by));
-            _mm_storeu_pd(atB, _mm_add_pd(_mm_loadu_pd(atB), by));
+        const __m256d gravity = _mm256_setr_pd(step.gravityX, step.gravityY, step.gravityX, step.gravityY);
+        const __m256d h = _mm256_set1_pd(step.h), kept = _mm256_set1_pd(step.kept), none = _mm256_setzero_pd();
+        const auto push = [&](double* v, __m256d inverse, __m128 force) {
+            const __m256d fall = _mm256_and_pd(gravity, _mm256_cmp_pd(inverse, none, _CMP_GT_OQ));
+            const __m256d change =
+                _mm256_mul_pd(h, _mm256_add_pd(fall, _mm256_mul_pd(inverse, _mm256_cvtps_pd(force))));
+            _mm256_storeu_pd(v, _mm256_mul_pd(kept, _mm256_add_pd(_mm256_loadu_pd(v), change)));
         };
-        for (int half = 0; half < 2; ++half) {
-            const int at = 4 * half;
-            const __m256d even = f[2 * half], odd = f[2 * half + 1];
-            act(a[at], b[at], _mm256_castpd256_pd128(even));
-            act(a[at + 1], b[at + 1], _mm256_castpd256_pd128(odd));
-            act(a[at + 2], b[at + 2], _mm256_extractf128_pd(even, 1));
-            act(a[at + 3], b[at + 3], _mm256_extractf128_pd(odd, 1));
+        std::size_t n = 0;
+        for (; n + 4 <= nodes; n += 4) {
+            const __m128 fx = _mm_loadu_ps(in.fx + n), fy = _mm_loadu_ps(in.fy + n);
+            const __m256d inverse = _mm256_loadu_pd(inverseMass + n);
+            push(velocity + 2 * n, _mm256_permute4x64_pd(inverse, 0x50), _mm_unpacklo_ps(fx, fy));
+            push(velocity + 2 * n + 4, _mm256_permute4x64_pd(inverse, 0xfa), _mm_unpackhi_ps(fx, fy));
         }
+        return n;
+    }
+
+    /// From node n on, until one has a component of velocity that is not below `slow`; returns that, or `nodes`.
+    static std::size_t advance(double* position, const double* velocity, std::size_t n, std::size_t nodes, double h,
+                               double slow)
+    {
+        const __m256d step = _mm256_set1_pd(h), signs = _mm256_set1_pd(-0.0), least = _mm256_set1_pd(slow);
+        for (; n + 2 <= nodes; n += 2) {
+            const __m256d v = _mm256_loadu_pd(velocity + 2 * n);
+            if (_mm256_movemask_pd(_mm256_cmp_pd(_mm256_andnot_pd(signs, v), least, _CMP_LE_OQ)) != 15) break;
+            _mm256_storeu_pd(position + 2 * n,
+                             _mm256_add_pd(_mm256_loadu_pd(position + 2 * n), _mm256_mul_pd(step, v)));
+        }
+        return advanceOne(position, velocity, n, nodes, h, slow);
     }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace jet::physics::soft {
@@ -10,6 +11,7 @@ namespace jet::physics::soft {
 namespace {
 
 constexpr std::size_t kLeastInRun = 5;  // with fewer springs, gathering them with others is cheaper
+constexpr std::uint32_t kAlone = 0xffffffffU;
 
 using Order = std::vector<std::uint32_t>;
 
@@ -68,7 +70,8 @@ std::vector<Keyed> sortedByDifference(const std::vector<Ends>& springs)
     return keyed;
 }
 
-/// Calls run(base, members) for each window of 8 nodes that holds enough springs, lone(spring) for all others.
+/// Calls run(base, members) for each window of 8 nodes that holds enough springs, lone(spring) for all others. Windows
+/// start at multiples of 8, so that those of different differences have their first nodes in common.
 template <class RunAct, class LoneAct>
 void cut(const std::vector<Keyed>& keyed, std::uint32_t nodes, RunAct&& run, LoneAct&& lone)
 {
@@ -76,7 +79,7 @@ void cut(const std::vector<Keyed>& keyed, std::uint32_t nodes, RunAct&& run, Lon
     while (i < keyed.size()) {
         const std::uint32_t difference = keyed[i].difference;
         const std::uint32_t last = nodes >= kLanes + difference ? nodes - kLanes - difference : 0;
-        const std::uint32_t base = std::min(keyed[i].low, last);
+        const std::uint32_t base = std::min(keyed[i].low / kLanes * kLanes, last);
         std::array<const Keyed*, kLanes> members{};
         std::size_t count = 0, end = i;
         std::vector<const Keyed*> doubles;
@@ -105,6 +108,19 @@ std::size_t springsInRuns(const std::vector<Ends>& springs, std::uint32_t nodes)
     cut(
         sortedByDifference(springs), nodes, [](auto&&...) {}, [&](const Keyed&) { ++alone; });
     return springs.size() - alone;
+}
+
+/// Runs with the same first nodes one after the other: the kernels read those once.
+void sortByFirst(Blocks& blocks)
+{
+    const std::vector<Run> runs = blocks.runs;
+    std::vector<std::uint32_t> order(runs.size()), place(runs.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto key = [&](std::uint32_t i) { return std::tuple(runs[i].a, runs[i].b, i); };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) { return key(p) < key(q); });
+    for (std::uint32_t at = 0; at < order.size(); ++at) blocks.runs[at] = runs[order[at]], place[order[at]] = at;
+    for (std::uint32_t& seat : blocks.seat)
+        if (seat != kAlone) seat = place[seat / kLanes] * kLanes + seat % kLanes;
 }
 
 }  // namespace
@@ -137,11 +153,11 @@ Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes)
         [&](std::uint32_t base, std::uint32_t difference, const auto& members) {
             for (std::uint32_t k = 0; k < kLanes; ++k)
                 if (members[k])
-                    blocks.seat[members[k]->spring] =
-                        static_cast<std::uint32_t>(blocks.runs.size()) * kLanes + kLaneOf[k];
+                    blocks.seat[members[k]->spring] = static_cast<std::uint32_t>(blocks.runs.size()) * kLanes + k;
             blocks.runs.push_back({base, base + difference});
         },
-        [&](const Keyed& spring) { alone.push_back(spring.spring); });
+        [&](const Keyed& spring) { alone.push_back(spring.spring), blocks.seat[spring.spring] = kAlone; });
+    sortByFirst(blocks);
     // Scattered springs in the order of their nodes: neighbours in memory are computed together.
     std::sort(alone.begin(), alone.end(), [&](std::uint32_t p, std::uint32_t q) {
         const auto key = [&](std::uint32_t i) {
@@ -157,7 +173,7 @@ Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes)
             const std::uint32_t spring = alone[at + k];
             ends[k] = std::min(springs[spring].a, springs[spring].b);
             ends[kLanes + k] = std::max(springs[spring].a, springs[spring].b);
-            blocks.seat[spring] = block * kLanes + kLaneOf[k];
+            blocks.seat[spring] = block * kLanes + k;
         }
     }
     return blocks;

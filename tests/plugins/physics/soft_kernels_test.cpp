@@ -2,7 +2,7 @@
 #include "lattices.hpp"
 #include "soft/layout.hpp"
 
-#include <cstring>
+#include <array>
 #include <random>
 
 namespace jet::physics::soft {
@@ -38,11 +38,6 @@ std::vector<Ends> endsOf(const SoftBodyDef& def, const std::vector<std::uint32_t
     return ends;
 }
 
-std::uint32_t springOfLane(std::uint32_t lane)
-{
-    return static_cast<std::uint32_t>(std::find(std::begin(kLaneOf), std::end(kLaneOf), lane) - std::begin(kLaneOf));
-}
-
 }  // namespace
 
 TEST(SoftLayout, EachSpringHasASeatOfItsOwnBetweenItsNodes)
@@ -54,7 +49,7 @@ TEST(SoftLayout, EachSpringHasASeatOfItsOwnBetweenItsNodes)
         const Blocks blocks = arrange(ends, static_cast<std::uint32_t>(order.size()));
         std::vector<int> taken(blocks.count() * kLanes, 0);
         for (std::size_t i = 0; i < ends.size(); ++i) {
-            const std::uint32_t block = blocks.seat[i] / kLanes, k = springOfLane(blocks.seat[i] % kLanes);
+            const std::uint32_t block = blocks.seat[i] / kLanes, k = blocks.seat[i] % kLanes;
             EXPECT_EQ(taken[blocks.seat[i]]++, 0);
             std::uint32_t a = 0, b = 0;
             if (block < blocks.runs.size()) {
@@ -89,41 +84,125 @@ TEST(SoftLayout, AShuffledSheetIsPutBackInRows)
     EXPECT_GT(static_cast<double>(blocks.runs.size()) / static_cast<double>(blocks.count()), 0.95);
 }
 
+namespace {
+
+struct Particles {
+    std::vector<double> position, velocity, inverse;
+};
+
+/// The planes of `size` nodes, in memory of their own.
+struct Room {
+    explicit Room(std::size_t size)
+    {
+        for (auto& plane : planes) plane.assign(size + 8, 7);
+        near.assign(4 * size, 7);
+    }
+    Planes view()
+    {
+        return {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data(),
+                planes[4].data(), planes[5].data(), near.data()};
+    }
+    std::array<std::vector<float>, 6> planes;
+    std::vector<float> near;
+};
+
+class Random {
+public:
+    double operator()(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
+
+private:
+    std::mt19937 engine_{3};
+};
+
+Particles shaken(const SoftBodyDef& def, const std::vector<std::uint32_t>& order, Random& number)
+{
+    Particles all;
+    for (std::uint32_t particle : order) {
+        for (int axis : {0, 1}) all.position.push_back(def.particles[particle][axis] + number(-3, 3));
+        for (int axis : {0, 1}) all.velocity.push_back(5 * axis + number(-90, 90));
+        all.inverse.push_back(number(0, 1) < 0.1 ? 0 : number(0.1, 100));
+    }
+    return all;
+}
+
+std::vector<float> numbers(std::size_t count, double from, double to, Random& number)
+{
+    std::vector<float> all(count);
+    for (float& value : all) value = static_cast<float>(number(from, to));
+    return all;
+}
+
+}  // namespace
+
 TEST(SoftKernels, EveryInstructionSetGivesTheSameBits)
 {
     if (!hasAvx2()) GTEST_SKIP() << "this processor has one instruction set only";
-    const SoftBodyDef def = test::defaultBall({1000, -70}, 30);
-    const auto order = orderOf(def);
-    const Blocks blocks = arrange(endsOf(def, order), static_cast<std::uint32_t>(order.size()));
-    std::mt19937 random(3);
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
-    std::vector<double> position, velocity, inverse;
-    for (std::uint32_t particle : order) {
-        for (int axis : {0, 1}) position.push_back(def.particles[particle][axis] + number(-3, 3));
-        for (int axis : {0, 1}) velocity.push_back(5 * axis + number(-90, 90));
-        inverse.push_back(number(0, 1) < 0.1 ? 0 : number(0.1, 100));
+    Random number;
+    // Round, with springs to gather; in rows, with all counts of nodes left over after fours.
+    for (const SoftBodyDef& def : {test::defaultBall({1000, -70}, 30), sheet(20, 10), sheet(23, 7), sheet(9, 13)}) {
+        const auto order = orderOf(def);
+        const Blocks blocks = arrange(endsOf(def, order), static_cast<std::uint32_t>(order.size()));
+        const Particles start = shaken(def, order, number);
+        const auto coefficients = numbers(blocks.count() * 3 * kLanes, 0, 20, number);
+        const auto tear = numbers(blocks.count() * kLanes, 1, 40, number);
+        const auto run = [&](const Kernels& kernels, bool pushed) {
+            Particles now = start;
+            std::vector<double> force(now.position.size(), 0.25);
+            Room room(order.size());
+            const Planes planes = room.view();
+            std::vector<std::uint32_t> torn(blocks.count());
+            const SpringBlocks springs{
+                blocks.runs.data(),  blocks.runs.size(), blocks.ends.data(), blocks.ends.size() / 16,
+                coefficients.data(), tear.data(),        torn.data()};
+            kernels.relate(now.position.data(), now.velocity.data(), order.size(), {now.position[0], 2, 1, 2}, planes);
+            torn.resize(kernels.pull(springs, planes));
+            std::vector<double> left(2);
+            kernels.sum(planes, order.size(), left.data());
+            kernels.accelerate(now.velocity.data(), pushed ? force.data() : nullptr, now.inverse.data(), order.size(),
+                               {1.0 / 480, 0.3, 9.8, 0.999}, &planes);
+            kernels.advance(now.position.data(), now.velocity.data(), order.size(), 1.0 / 480);
+            return std::tuple(now.position, now.velocity, room.planes, room.near, left, force, torn);
+        };
+        for (const bool pushed : {false, true}) {
+            EXPECT_EQ(run(kernelsSse2(), pushed), run(kernelsAvx2(), pushed));
+            EXPECT_FALSE(std::get<6>(run(kernelsSse2(), pushed)).empty());
+        }
     }
-    std::vector<float> coefficients(blocks.count() * 3 * kLanes), tear(blocks.count() * kLanes);
-    for (float& c : coefficients) c = static_cast<float>(number(0, 20));
-    for (float& t : tear) t = static_cast<float>(number(1, 40));
+}
 
-    const auto run = [&](const Kernels& kernels) {
-        std::vector<double> at = position, moving = velocity, force(position.size(), 0.25);
-        std::vector<float> relative(2 * position.size());
-        std::vector<std::uint32_t> torn(blocks.count());
-        const SpringBlocks springs{blocks.runs.data(),  blocks.runs.size(), blocks.ends.data(), blocks.ends.size() / 16,
-                                   coefficients.data(), tear.data(),        torn.data()};
-        kernels.relate(at.data(), moving.data(), order.size(), {at[0], at[1], 1, 2}, relative.data());
-        torn.resize(kernels.pull(springs, relative.data(), force.data()));
-        const std::vector<double> pulled = force;
-        kernels.accelerate(moving.data(), force.data(), inverse.data(), order.size(), {1.0 / 480, 0.3, 9.8, 0.999});
-        kernels.advance(at.data(), moving.data(), order.size(), 1.0 / 480);
-        return std::tuple(at, moving, pulled, relative, torn);
+TEST(SoftKernels, BodiesAlikeGetTheSameBitsFromEveryInstructionSet)
+{
+    if (!hasAvx2()) GTEST_SKIP() << "this processor has one instruction set only";
+    Random number;
+    const SoftBodyDef def = test::defaultBall({3, -7}, 30);
+    const auto rows = static_cast<std::uint32_t>(def.particles.size());
+    std::vector<std::uint32_t> all(8 * rows), nodeAt(8 * rows);
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i % rows, nodeAt[i] = i / 8 + i % 8 * rows;
+    const Particles start = shaken(def, all, number);
+    std::vector<soft::Run> runs;
+    for (const SpringDef& spring : def.springs) runs.push_back({8 * spring.a, 8 * spring.b});
+    const auto coefficients = numbers(runs.size() * 3 * kLanes, 0, 20, number);
+    std::array<Frame, 8> frames;
+    std::array<VelocityStep, 8> steps;
+    for (Frame& frame : frames) frame = {number(-9, 9), number(-9, 9), number(-9, 9), number(-9, 9)};
+    for (VelocityStep& step : steps) step = {1.0 / 480, number(-9, 9), number(-9, 9), 0.999};
+    const auto run = [&](const Kernels& kernels, bool pushed) {
+        Particles now = start;
+        std::vector<double> force(now.position.size(), 0.25), left(16);
+        Room room(nodeAt.size());
+        const Planes planes = room.view();
+        kernels.relateAlike(now.position.data(), now.velocity.data(), nodeAt.data(), rows, frames.data(), planes);
+        kernels.pull({runs.data(), runs.size(), nullptr, 0, coefficients.data(), nullptr, nullptr}, planes);
+        kernels.sumAlike(planes, rows, left.data());
+        kernels.accelerateAlike(now.velocity.data(), pushed ? force.data() : nullptr, now.inverse.data(), nodeAt.data(),
+                                rows, 7, steps.data(), planes);
+        return std::tuple(now.velocity, room.planes, left, force);
     };
-    EXPECT_EQ(run(kernelsSse2()), run(kernelsAvx2()));
-    EXPECT_FALSE(std::get<4>(run(kernelsSse2())).empty());
+    for (const bool pushed : {false, true}) EXPECT_EQ(run(kernelsSse2(), pushed), run(kernelsAvx2(), pushed));
+    EXPECT_NE(std::get<0>(run(kernelsSse2(), false)), start.velocity);
+    // The lane that is not counted stays as it was.
+    const std::vector<double> after = std::get<0>(run(kernelsSse2(), false));
+    EXPECT_TRUE(std::equal(after.begin() + 14 * rows, after.end(), start.velocity.begin() + 14 * rows));
 }
 
 }  // namespace jet::physics::soft
