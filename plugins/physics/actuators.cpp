@@ -8,6 +8,12 @@ constexpr double kStiffeningReserve = 2.0;  // see soft_springs.cpp
 
 double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(armA, armB), armA.dot(armB)); }
 
+/// Then all that the spring holds sleeps, or stands.
+bool sleeps(const State& state, const AnchorPoint& anchor)
+{
+    return anchor.body != kNone && state.bodies[anchor.body].asleep;
+}
+
 /// The constraint "angle from a to b about the centre"; empty when an arm has no length.
 bool angleJacobian(const State& state, const AnchorPoint& a, const AnchorPoint& centre, const AnchorPoint& b,
                    AnchorJacobian& jacobian)
@@ -167,7 +173,7 @@ void Actuators::addSpringForces(State& state)
 
 void Actuators::apply(State& state, Spring& spring, double h)
 {
-    if (!spring.alive) return;
+    if (!spring.alive || sleeps(state, spring.a) || sleeps(state, spring.b)) return;
     const Vec2 apart = spring.a.position(state) - spring.b.position(state);
     const double length = std::sqrt(apart.squaredNorm());
     if (spring.tearLength > 0 && length > spring.tearLength) {
@@ -188,6 +194,7 @@ void Actuators::apply(State& state, Spring& spring, double h)
 
 void Actuators::apply(State& state, AngularSpring& spring, double h)
 {
+    if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
     AnchorJacobian jacobian;
     if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) return;
     spring.angle += wrapped(angleNow(state, spring.a, spring.centre, spring.b) - spring.angle);

@@ -21,6 +21,25 @@ public:
     void setSpring(ActuatorHandle, double restLength, double ks, double kd, double tearRatio);
     void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }
     void setForce(ActuatorHandle handle, const Vec2& value) { forces_[handle].force = value; }
+    double torque(ActuatorHandle handle) const { return torques_[handle].value; }
+    const Vec2& force(ActuatorHandle handle) const { return forces_[handle].force; }
+    Index bodyOfTorque(ActuatorHandle handle) const { return torques_[handle].at.body; }
+    Index bodyOfForce(ActuatorHandle handle) const { return forces_[handle].at.body; }
+    /// Calls visit(body, body) for what the spring holds together; kNone: the background.
+    template <class Visit>
+    void visitSpring(ActuatorHandle spring, Visit&& visit) const
+    {
+        visit(springs_[spring].a.body, springs_[spring].b.body);
+    }
+    /// The same for all whole springs.
+    template <class Visit>
+    void eachBond(Visit&& visit) const
+    {
+        for (const Spring& spring : springs_)
+            if (spring.alive != 0) visit(spring.a.body, spring.b.body);
+        for (const AngularSpring& spring : angularSprings_)
+            visit(spring.a.body, spring.centre.body), visit(spring.centre.body, spring.b.body);
+    }
 
     void addTo(StiffnessBounds&, const State&) const;
     /// `plain`: stiffness and damping as they are.

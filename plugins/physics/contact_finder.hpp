@@ -20,6 +20,8 @@ public:
 
     // Of the last find():
     const std::vector<Motion>& motions() const { return motions_; }
+    /// Pairs with a body that is not simple, but for those of softPairs().
+    const std::vector<BodyPair>& pairs() const { return pairs_; }
     /// Pairs that soft/contacts.hpp takes; ascending.
     const std::vector<BodyPair>& softPairs() const { return softPairs_; }
 

@@ -48,7 +48,7 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
             if (angular != 1 && !body.fixed) dampTurning(nodes, body, angular);
             continue;
         }
-        if (nodes.invMass[first] > 0) {
+        if (nodes.invMass[first] > 0 && !body.asleep) {
             nodes.velocity[first] =
                 linear * (nodes.velocity[first] + h * (gravity + nodes.invMass[first] * nodes.force[first]));
             nodes.omega[first] = angular * (nodes.omega[first] + h * nodes.invInertia[first] * nodes.torque[first]);

@@ -76,6 +76,7 @@ struct BodyRecord {
     bool wide = false;       // soft: meets its like in soft/contacts.hpp
     bool kinematic = false;  // moves with its velocity, and nothing pushes it
     bool enabled = true;     // may move, meet and be seen
+    bool asleep = false;     // rigid: rests, and is left out until something wakes it
     std::uint32_t layer = 1;
     Index material = 0;
     double gravityScale = 1;

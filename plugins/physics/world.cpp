@@ -199,6 +199,7 @@ void validate(const AngularSpringActuatorDef& def, std::size_t bodies)
 ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 {
     validate(def, bodyCount());
+    wakeHeld(def.a), wakeHeld(def.b);
     rate_ = -1;
     return actuators_.add(state_, def);
 }
@@ -206,6 +207,7 @@ ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 {
     validate(def, bodyCount());
+    wakeHeld(def.a), wakeHeld(def.centre), wakeHeld(def.b);
     rate_ = -1;
     return actuators_.add(state_, def);
 }
@@ -214,12 +216,14 @@ ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
 {
     physics::validate(def.at, bodyCount());
     requireFinite("a torque", {def.value});
+    wakeHeld(def.at);
     return actuators_.add(state_, def);
 }
 
 ActuatorHandle World::addForceField(const ForceFieldDef& def)
 {
     physics::validate(def);
+    rigid_.wakeAll(state_);
     return fields_.add(def);
 }
 
@@ -227,6 +231,7 @@ ActuatorHandle World::addForce(const ForceActuatorDef& def)
 {
     physics::validate(def.at, bodyCount());
     requireFinite("a force", def.force);
+    wakeHeld(def.at);
     return actuators_.add(state_, def);
 }
 

@@ -61,6 +61,10 @@ public:
     void setJoint(JointHandle, const JointDef&) override;
     void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio) override;
 
+    bool awake(BodyHandle) const override;
+    void wake(BodyHandle) override;
+    std::uint32_t island(BodyHandle) const override;
+
     JointHandle addJoint(const JointDef&) override;
     JointState joint(JointHandle) const override;
     std::size_t jointCount() const override { return jointsAt_.size(); }
@@ -93,6 +97,15 @@ private:
         Index index = 0;
     };
     JointAt jointAt(JointHandle) const;
+
+    void wakeHeld(const JointDef&);
+    void wakeHeld(const Anchor&);
+    /// It was moved from outside: it wakes, and so does what rests on it.
+    void rouse(BodyHandle);
+    void wakeBesideSoft();
+    void restIfDue(double dt);
+    bool skipStep();
+    const std::vector<Index>& islands() const;
 
     void prepareStiffness();
     void substep(double h, int index, int count);
@@ -157,6 +170,8 @@ private:
     std::vector<Contact> reports_;
     std::vector<std::uint64_t> touching_;  // sorted pairs of handles, the smaller one high
     StepStats stats_;
+    std::vector<Index> islands_;  // [bodies] kNone: none, or asleep
+    bool islandsKnown_ = false;   // are they those of the last step?
 
     StiffnessBounds bounds_;
     double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added

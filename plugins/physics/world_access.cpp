@@ -24,6 +24,8 @@ void World::setTorque(ActuatorHandle torque, double value)
 {
     requireBelow("torque", torque, actuators_.torqueCount());
     requireFinite("a torque", {value});
+    const Index body = actuators_.bodyOfTorque(torque);
+    if (body != kNone && actuators_.torque(torque) != value) rigid_.wake(state_, body);
     actuators_.setTorque(torque, value);
 }
 
@@ -31,6 +33,8 @@ void World::setForce(ActuatorHandle force, const Vec2& value)
 {
     requireBelow("force", force, actuators_.forceCount());
     requireFinite("a force", value);
+    const Index body = actuators_.bodyOfForce(force);
+    if (body != kNone && actuators_.force(force) != value) rigid_.wake(state_, body);
     actuators_.setForce(force, value);
 }
 
@@ -39,7 +43,9 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
     requireBelow("body", handle, bodyCount());
     requireFinite("a force", force);
     const BodyRecord& body = state_.bodies[handle];
+    if (force == Vec2(0, 0)) return;
     pushed_ = true;
+    rigid_.wake(state_, handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         stepForces_[n] += state_.nodes.mass[n] / body.mass * force;
 }
@@ -50,6 +56,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
     requireFinite("an impulse", impulse);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
+    if (impulse != Vec2(0, 0)) rigid_.wake(state_, handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / body.mass;
     updateReading(state_, handle);
@@ -62,6 +69,7 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 change = velocity - state_.readings.velocity[handle];
+    if (change != Vec2(0, 0)) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0 || body.kinematic) state_.nodes.velocity[n] += change;
     updateReading(state_, handle);
@@ -74,6 +82,7 @@ void World::setOmega(BodyHandle handle, double omega)
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     const double change = omega - state_.readings.omega[handle];
+    if (change != 0) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
         if (state_.nodes.invMass[n] == 0 && !body.kinematic) continue;
         if (body.rigid) {
@@ -94,6 +103,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 shift = centre - state_.readings.position[handle];
     rigid_.disturb(handle);
+    rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.position[p] = state_.pointNow(p);
     updateReading(state_, handle);
@@ -104,6 +114,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
 void World::setGravity(const Vec2& gravity)
 {
     requireFinite("gravity", gravity);
+    if (gravity != settings_.gravity) rigid_.wakeAll(state_);
     settings_.gravity = gravity;
 }
 
@@ -131,7 +142,7 @@ void World::archive(Self& self, Archive& with)
     self.actuators_.archive(with);
     self.fields_.archive(with);
     for (BodyRecord& body : self.state_.bodies) {
-        with(body.mass);
+        with(body.mass), with(body.asleep);
         SoftMatter& matter = body.matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
@@ -191,7 +202,7 @@ void World::restore(std::span<const std::byte> bytes)
     finder_.exclude(softJoints_.excluded());
     queries_.outdate();
     rate_ = -1;
-    stale_ = untold_ = false;
+    stale_ = untold_ = islandsKnown_ = false;
     updatePoints(state_);
     updateReadings(state_);
 }

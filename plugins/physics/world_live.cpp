@@ -19,6 +19,7 @@ void World::setSettings(const WorldSettings& settings)
     const Simd simd = settings_.simd;
     settings_ = settings;
     settings_.precision = precision, settings_.simd = simd;
+    rigid_.wakeAll(state_);
     if (!kept) rigid_.forgetPairs();
 }
 
@@ -39,12 +40,14 @@ void World::setMass(BodyHandle handle, double mass)
     body.mass = mass;
     rate_ = -1;
     rigid_.disturb(handle);
+    rigid_.wake(state_, handle);
 }
 
 void World::setJoint(JointHandle handle, const JointDef& def)
 {
     const JointAt at = jointAt(handle);
     validateJoint(def);
+    wakeHeld(at.soft ? softJoints_.def(at.index) : rigid_.joint(at.index).def);
     if (at.soft) {
         softJoints_.set(at.index, def);
         finder_.exclude(softJoints_.excluded());
@@ -57,6 +60,10 @@ void World::setSpring(ActuatorHandle spring, double restLength, double ks, doubl
 {
     requireBelow("spring", spring, actuators_.springCount());
     requireSpring("a spring between bodies", restLength, ks, kd, tearRatio);
+    actuators_.visitSpring(spring, [&](Index a, Index b) {
+        for (const Index body : {a, b})
+            if (body != kNone) rigid_.wake(state_, body);
+    });
     actuators_.setSpring(spring, restLength, ks, kd, tearRatio);
     rate_ = -1;
 }

@@ -16,6 +16,7 @@ void World::stepSimple(double dt)
     if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
     rigid_.step(state_, settings_, dt, stats_);
     limitVelocities(state_);
+    restIfDue(dt);
     std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
     std::fill(state_.nodes.force.begin(), state_.nodes.force.end(), Vec2(0, 0));
     std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
@@ -88,6 +89,7 @@ std::span<const Contact> World::contacts() const
 StepStats World::stats() const
 {
     reportIfAsked();
+    if (settings_.allowSleep) islands();
     return stats_;
 }
 
@@ -105,6 +107,7 @@ JointHandle World::addJoint(const JointDef& def)
                                 "it shapes, or use a spring between bodies."));
     if (def.a.body == def.b.body) throw Failure(Error("Physics: a joint needs two different bodies."));
     validateJoint(def);
+    wakeHeld(def);
     jointsAt_.push_back({soft, soft ? softJoints_.add(state_, def) : rigid_.addJoint(state_, def)});
     if (soft) finder_.exclude(softJoints_.excluded());
     return static_cast<JointHandle>(jointsAt_.size() - 1);
@@ -145,8 +148,10 @@ void World::setMotor(JointHandle handle, bool driven, double speed)
     handle = at.index;
     requireFinite("a motor's speed", {speed});
     if (at.soft) return softJoints_.setMotor(at.index, driven, speed);
-    rigid_.joint(handle).def.driven = driven;
-    rigid_.joint(handle).def.motorSpeed = speed;
+    JointDef& def = rigid_.joint(handle).def;
+    if (def.driven != driven || def.motorSpeed != speed) wakeHeld(def);
+    def.driven = driven;
+    def.motorSpeed = speed;
 }
 
 void World::setJointTarget(JointHandle handle, const Vec2& target)
@@ -157,12 +162,10 @@ void World::setJointTarget(JointHandle handle, const Vec2& target)
     if (at.soft && softJoints_.setTarget(at.index, target)) return;
     if (at.soft) throw Failure(Error("Physics: only a joint with the background has a target."));
     Joint& joint = rigid_.joint(handle);
-    if (joint.a == 0)
-        joint.localA = target;
-    else if (joint.b == 0)
-        joint.localB = target;
-    else
-        throw Failure(Error("Physics: only a joint with the background has a target."));
+    if (joint.a != 0 && joint.b != 0) throw Failure(Error("Physics: only a joint with the background has a target."));
+    Vec2& end = joint.a == 0 ? joint.localA : joint.localB;
+    if (end != target) wakeHeld(joint.def);
+    end = target;
 }
 
 void World::removeJoint(JointHandle handle)
@@ -173,8 +176,8 @@ void World::removeJoint(JointHandle handle)
         finder_.exclude(softJoints_.excluded());
         return;
     }
-    handle = at.index;
-    rigid_.removeJoint(handle);
+    wakeHeld(rigid_.joint(at.index).def);
+    rigid_.removeJoint(at.index);
 }
 
 }  // namespace jet::physics

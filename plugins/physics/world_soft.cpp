@@ -18,6 +18,7 @@ void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
     requireBelow("force field", field, fields_.count());
     validate(def);
     fields_.set(field, def);
+    rigid_.wakeAll(state_);
 }
 
 BodyRecord& World::softBody(BodyHandle handle)

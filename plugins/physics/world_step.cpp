@@ -35,7 +35,9 @@ void World::step(double dt)
 {
     requireFinite("the time step", {dt});
     if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
+    if (skipStep()) return;
     stats_ = StepStats();
+    islandsKnown_ = false;
     queries_.outdate();
     const int parts = static_cast<int>(std::min(std::ceil(dt / kLongestPart - 1e-9), kMostParts));
     const std::vector<Vec2> forces = parts > 1 ? stepForces_ : std::vector<Vec2>();
@@ -89,12 +91,14 @@ void World::stepPart(double dt)
             softContacts_.find(state_, settings_, finder_.motions(), finder_.softPairs(), dt - now, i == 0);
             soughtAt = now;
         }
+        if (i == 0 && settings_.findCollisions) wakeBesideSoft();
         if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
         substep(h, i, count);
         if (i + 1 == count) rigid_.finish(state_, true);
     }
     if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
     pushed_ = false;
+    restIfDue(dt);
     springs_.flow(state_, dt);
     softContacts_.keep();
     if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
@@ -167,6 +171,7 @@ void World::report()
     std::sort(touching_.begin(), touching_.end());
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());
+    for (const BodyRecord& body : state_.bodies) stats_.awakeBodies += !body.fixed && !body.asleep;
 }
 
 /// What pushed in this step is told, and what lies on or in a wall without pushing (sensors; collisions not resolved).

@@ -54,6 +54,27 @@ void Collider::disturbAll()
     for (RigidContact& c : contacts_) c.due = true;
 }
 
+bool Collider::rouses(RigidContact& c)
+{
+    bool any = false;
+    for (const Index body : {c.bodyA, c.bodyB}) {
+        if (!bodies_[body].asleep) continue;
+        roused_.push_back(body);
+        any = c.due = true;
+    }
+    return any;
+}
+
+void Collider::releaseAwake()
+{
+    const auto awake = [&](Index body) { return bodies_[body].moves && !bodies_[body].asleep; };
+    for (Index i = 0; i < contacts_.size(); ++i) {
+        if (places_[i] != kAsleep || !(awake(contacts_[i].bodyA) || awake(contacts_[i].bodyB))) continue;
+        places_[i] = kIdle;
+        contacts_[i].due = true;
+    }
+}
+
 void Collider::find(const State& state, const WorldSettings& settings, double dt, StepStats& stats, Pool& pool)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -72,7 +93,12 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
         bool fast = false, moved = false;
         for (std::size_t i = first; i < last; ++i) {
             const Index body = static_cast<Index>(i + 1);
-            fast |= takePose(body, state, fall, dt);
+            if (!bodies_[body].posed) fast |= takePose(body, state, fall, dt);
+            bodies_[body].posed = bodies_[body].asleep;
+            if (bodies_[body].asleep) {
+                drift_[body] = 0;
+                continue;
+            }
             noteDrift(body);
             moved |= fitBoxes(body, dt);
         }
@@ -289,6 +315,7 @@ void Collider::forgetPairs()
 void Collider::rebuild()
 {
     welded_ = false;  // outlines follow from places
+    for (RigidBody& body : bodies_) body.posed = false;
     known_.clear();
     for (Index i = 0; i < contacts_.size(); ++i)
         if (places_[i] != kFree) known_.insert(contacts_[i].key());

@@ -25,6 +25,17 @@ public:
     /// Something about the body has changed: all its contacts are looked at again.
     void disturb(Index body);
 
+    /// Does the contact, which is to push, hold a sleeping body? Then that is to be woken first.
+    bool rouses(RigidContact&);
+    /// Sleeping bodies that were found to be touched by others.
+    std::vector<Index>& roused() { return roused_; }
+    /// Contacts that slept and have a body that does not any more are looked at again.
+    void releaseAwake();
+    /// Nothing that has been looked at in this step is looked at again because it moves.
+    void settleDrifts();
+    /// Is there a reason to look at contacts though nothing moves?
+    bool restless() const { return disturbed_ || rearranged_ || !welded_ || poses_.size() != bodies_.size(); }
+
     /// Where bodies are and which pairs may meet in the coming dt seconds.
     void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&);
     /// After update(): bodies that fast ones are going to hit may come farther than they know; they are given more
@@ -132,6 +143,7 @@ private:
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;       // [contacts]
     std::vector<Index> free_;         // gaps in the contacts
+    std::vector<Index> roused_;       // bodies
     float typical_ = 0;               // length of a moving part in the middle
     std::atomic<bool> fast_ = false;  // does any body move by much of its size in this step?
     bool surprised_ = false, disturbed_ = true;

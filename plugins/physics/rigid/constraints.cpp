@@ -148,10 +148,10 @@ template <class Real>
 void Solver<Real>::settle(Collider& collider, const Outcome& outcome, bool resolve)
 {
     RigidContact& c = collider.contacts()[outcome.contact];
-    const bool placed = collider.places()[outcome.contact] != kIdle;
+    const bool placed = isPlaced(collider.places()[outcome.contact]);
     const bool pushes = c.resolve && resolve;
     if (outcome.kept && c.count > 0 && pushes) {
-        if (!placed) admit(collider, outcome.contact);
+        if (!collider.rouses(c) && !placed) admit(collider, outcome.contact);
         return;
     }
     if (placed) remove(collider, outcome.contact);
@@ -250,6 +250,13 @@ void Solver<Real>::remove(Collider& collider, Index contact)
     clear(r.restitution), clear(r.most[0]), clear(r.most[1]);
 }
 
+template <class Real>
+void Solver<Real>::suspend(Collider& collider, Index contact)
+{
+    if (isPlaced(collider.places()[contact])) remove(collider, contact);
+    collider.places()[contact] = kAsleep;
+}
+
 /// Frozen until the contact is looked at again: normal, levers and masses.
 template <class Real>
 void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place place)
@@ -316,7 +323,7 @@ void Solver<Real>::release(Collider& collider)
 {
     auto& places = collider.places();
     for (Index contact = 0; contact < places.size(); ++contact) {
-        if (places[contact] >= kFree) continue;
+        if (!isPlaced(places[contact])) continue;
         RigidContact& c = collider.contacts()[contact];
         fetch(c, places[contact]);
         c.due = true;
@@ -354,7 +361,7 @@ void Solver<Real>::place(const Collider& collider)
     taken_.assign(collider.bodies().size(), 0);
     const auto& places = collider.places();
     for (Index contact = 0; contact < places.size(); ++contact) {
-        if (places[contact] >= kFree) continue;
+        if (!isPlaced(places[contact])) continue;
         const auto which = static_cast<int>(places[contact] >> kLaneBits);
         const std::size_t at = laneAt(places[contact]);
         if (which >= kColours || at > 2 * kWidth * places.size()) RestoreArchive::fail();

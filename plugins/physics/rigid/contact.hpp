@@ -15,6 +15,8 @@ struct RigidBody {
     std::uint32_t group = 0, layer = 1, mask = ~0U;
     bool moves = false;  // pushed by contacts
     bool kinematic = false, sensor = false;
+    bool mayRest = true;
+    bool asleep = false, posed = false;  // rests; its pose was taken since it does
     float length = 1;                    // typical size, units
     float finest = 0;                    // the same of its smallest part
     float reach = 0;                     // farthest point from the centre, units
@@ -37,8 +39,10 @@ struct FatBox {
 
 /// Where a contact's constraint lies in the solver: a colour and a lane, or nowhere.
 using Place = std::uint32_t;
-inline constexpr Place kIdle = 0xffffffffU;  // has no constraint: nothing near enough, or not to be pushed
-inline constexpr Place kFree = 0xfffffffeU;  // no contact at all
+inline constexpr Place kIdle = 0xffffffffU;    // has no constraint: nothing near enough, or not to be pushed
+inline constexpr Place kFree = 0xfffffffeU;    // no contact at all
+inline constexpr Place kAsleep = 0xfffffffdU;  // between bodies that rest: its constraint was taken away
+inline constexpr bool isPlaced(Place place) { return place < kAsleep; }
 inline constexpr int kLaneBits = 26;
 
 /// Two parts whose boxes meet. Two cache lines; the impulses are the solver's while it has a constraint.

@@ -97,10 +97,15 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
         grew |= surprise(c.bodyB, gain(b), dt);
     }
     if (!grew) return false;
-    for (Index i = 1; i < bodies_.size(); ++i)
-        if (surprise_[i] == 0) drift_[i] = 0;  // has been looked at
+    settleDrifts();
     findPairs(settings);
     return true;
+}
+
+void Collider::settleDrifts()
+{
+    for (Index i = 1; i < bodies_.size(); ++i)
+        if (surprise_[i] == 0) drift_[i] = 0;  // has been looked at
 }
 
 /// The body may be carried `gain` units farther in this step. False: that is nothing new.

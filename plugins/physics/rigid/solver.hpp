@@ -65,6 +65,8 @@ public:
     /// Takes the constraints of all contacts away; their impulses go back to them.
     void release(Collider&);
     bool holdsContacts() const;
+    /// Takes the constraint of a contact between bodies that rest away; its impulses go back to it.
+    void suspend(Collider&, Index contact);
 
     std::size_t colours() const;
     std::size_t bytes() const;
@@ -76,7 +78,7 @@ public:
         with(lastH_), with(bounces_);
         if constexpr (std::is_same_v<Archive, RestoreArchive>) place(collider);
         for (Place at : collider.places())
-            if (at < kFree) values(at, with);
+            if (isPlaced(at)) values(at, with);
     }
 
 private:

@@ -66,7 +66,8 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
     body.material = def.common.material;
     body.group = def.common.group, body.layer = def.common.layer, body.mask = def.common.mask;
     body.moves = state.nodes.invMass[node] > 0;
-    body.kinematic = def.common.kinematic, body.sensor = def.common.sensor;
+    body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
+    body.mayRest = def.common.allowSleep;
     if (def.common.oneSided.norm() > 0) {
         const Vec2 up = def.common.oneSided.normalized();
         body.oneSidedX = static_cast<float>(up.x()), body.oneSidedY = static_cast<float>(up.y());
@@ -75,6 +76,8 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
     if (drawn.empty()) return false;
     bodyOf_.resize(std::max<std::size_t>(bodyOf_.size(), handle + 1), 0);
     bodyOf_[handle] = collider_.addBody(body);
+    movers_ += body.moves;
+    if (body.kinematic) kinematic_.push_back(bodyOf_[handle]);
     for (const DrawnPart& part : drawn) collider_.addPart(part.part, part.outlined ? &part.outline : nullptr);
     return true;
 }
@@ -152,9 +155,23 @@ void RigidStage::activate(bool singles)
     active_ = wanted;
 }
 
+/// What touches a sleeping group wakes it within the step.
 template <class Real>
-void RigidStage::look(Solver<Real>& solver, const State& state, const WorldSettings& settings, double dt,
-                      StepStats& stats)
+void RigidStage::refresh(Solver<Real>& solver, State& state, const WorldSettings& settings, double dt)
+{
+    for (;;) {
+        if (woke_) collider_.releaseAwake();
+        woke_ = false;
+        solver.refresh(collider_, dt, settings.resolveCollisions);
+        if (collider_.roused().empty()) return;
+        for (const Index body : collider_.roused()) wakeGroup(state, group_[body]);
+        collider_.roused().clear();
+        collider_.settleDrifts();
+    }
+}
+
+template <class Real>
+void RigidStage::look(Solver<Real>& solver, State& state, const WorldSettings& settings, double dt, StepStats& stats)
 {
     if (!settings.findCollisions) {
         solver.release(collider_);
@@ -165,9 +182,9 @@ void RigidStage::look(Solver<Real>& solver, const State& state, const WorldSetti
     resolving_ = settings.resolveCollisions;
     collider_.find(state, settings, dt, stats, pool_);
     const auto start = std::chrono::steady_clock::now();
-    solver.refresh(collider_, dt, settings.resolveCollisions);
+    refresh(solver, state, settings, dt);
     for (int round = 0; round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt); ++round)
-        solver.refresh(collider_, dt, settings.resolveCollisions);
+        refresh(solver, state, settings, dt);
     stats.narrowPhaseMs += millisecondsSince(start);
 }
 
@@ -203,7 +220,9 @@ void RigidStage::load(Solver<Real>& solver, const State& state)
 template <class Real>
 void RigidStage::addJoints(Solver<Real>& solver, const State& state)
 {
+    const auto& bodies = collider_.bodies();
     for (Index i = 0; i < joints_.size(); ++i) {
+        if (bodies[joints_[i].a].asleep || bodies[joints_[i].b].asleep) continue;
         joints_[i].state.force = Vec2(0, 0), joints_[i].state.torque = 0;
         if (joints_[i].lives()) solver.addJoint(joints_[i], i, state, collider_.bodies());
     }
@@ -232,6 +251,8 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     pool_.setThreads(settings.threads);
     solver.begin(collider_.bodies().size(), shape, pool_);
     substeps_ = shape.substeps;
+    drowsy_ = false;
+    scaleSleeping(shape.h);
     load(solver, state);
     look(solver, state, settings, dt, stats);
     const auto start = std::chrono::steady_clock::now();
@@ -241,7 +262,7 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         const RigidBody& body = collider_.bodies()[i];
         BodyPush<Real>& force = solver.force(i);
         force = BodyPush<Real>();
-        if (!body.moves) continue;
+        if (!body.moves || body.asleep) continue;
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
         const Vec2 pull = scale * settings.gravity + state.nodes.invMass[body.node] * state.nodes.force[body.node];
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
@@ -276,7 +297,7 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
     if (fast) collider_.stopTunnelling(allowed_, moves_, turns_, dt);
     for (Index i = 1; i < count; ++i) {
         const RigidBody& body = collider_.bodies()[i];
-        if (!body.moves && !body.kinematic) continue;
+        if ((!body.moves && !body.kinematic) || body.asleep) continue;
         const BodyState<Real>& s = solver.body(i);
         const double part = fast ? static_cast<double>(allowed_[i]) : 1;
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
@@ -297,6 +318,7 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
     substeps_ = static_cast<double>(std::lround(dt / h));
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * h;
     pool_.setThreads(settings.threads);
+    scaleSleeping(h);
     double_.begin(collider_.bodies().size(), shape, pool_);
     load(double_, state);
     start_.resize(collider_.bodies().size()), startAngle_.resize(collider_.bodies().size());
@@ -386,8 +408,8 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
     for (Index i = 0; i < places.size(); ++i) {
         if (places[i] == kFree || !collider_.contacts()[i].touching) continue;
         RigidContact c = collider_.contacts()[i];
-        if (places[i] != kIdle && active_ == Active::Single) single_.fetch(c, places[i]);
-        if (places[i] != kIdle && active_ == Active::Double) double_.fetch(c, places[i]);
+        if (isPlaced(places[i]) && active_ == Active::Single) single_.fetch(c, places[i]);
+        if (isPlaced(places[i]) && active_ == Active::Double) double_.fetch(c, places[i]);
         const Index a = collider_.bodies()[c.bodyA].handle, b = collider_.bodies()[c.bodyB].handle;
         const Pose& pose = collider_.poses()[c.bodyA];
         const Vec2f normal = turned(pose.turn, c.normal);

@@ -8,6 +8,12 @@
 
 namespace jet::physics {
 
+/// What holds bodies together, or awake, beside contacts and joints of their own; handles.
+struct Bonds {
+    std::vector<std::pair<Index, Index>> pairs;
+    std::vector<Index> awake;
+};
+
 class RigidStage {
 public:
     /// Takes the body if its outline is simple; its node is where it shall be. Says whether it did.
@@ -35,6 +41,21 @@ public:
     void relax(State&);
     void finish(State&, bool bounce);
 
+    // Sleep: see rest.cpp.
+    /// Is it time to look who rests, after a step of dt?
+    bool restDue(double dt);
+    /// Lets groups of bodies that rest fall asleep.
+    void rest(State&, const WorldSettings&, const Bonds&);
+    void wake(State&, Index handle);
+    void wakeAll(State&);
+    /// A body that is not pushed begins to move, or is moved: what rests on it wakes.
+    void stir(State&, Index handle);
+    /// Has the step nothing to do?
+    bool allAsleep(const State&) const;
+    /// In place of such a step.
+    void skip(StepStats&);
+    bool asleep(Index handle) const { return has(handle) && collider_.bodies()[bodyOf_[handle]].asleep; }
+
     void report(std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
     const std::vector<ContactEvent>& events() const { return events_; }
     const Collider& collider() const { return collider_; }
@@ -48,6 +69,9 @@ public:
     void archive(Archive& with)
     {
         collider_.archive(with);
+        watches_.resize(collider_.bodies().size()), group_.resize(collider_.bodies().size(), kNone);
+        with(watches_), with(group_), with(sinceLook_), with(restH_), with(sleepers_), with(drowsy_), with(woke_);
+        for (RigidBody& body : collider_.bodies()) with(body.asleep);
         with(active_);
         if (active_ == Active::Single) single_.archive(with, collider_);
         if (active_ == Active::Double) double_.archive(with, collider_);
@@ -76,7 +100,19 @@ private:
     template <class Real>
     void addJoints(Solver<Real>&, const State&);
     template <class Real>
-    void look(Solver<Real>&, const State&, const WorldSettings&, double dt, StepStats&);
+    void look(Solver<Real>&, State&, const WorldSettings&, double dt, StepStats&);
+    template <class Real>
+    void refresh(Solver<Real>&, State&, const WorldSettings&, double dt);
+    /// Leans: rests if it touches others.
+    enum class Stillness : std::uint8_t { Moves, Leans, Rests };
+    void wakeGroup(State&, Index group);
+    Stillness stillness(Index body, const State&, double gravity, double interval);
+    bool driven(Index body, const State&) const;
+    void unite(const State&, const Bonds&);
+    Index rootOf(Index body);
+    void join(Index a, Index b);
+    void fallAsleep(State&);
+    void scaleSleeping(double h);
     void activate(bool singles);
     template <class Real>
     void advance(Solver<Real>&, State&, double dt);
@@ -100,6 +136,25 @@ private:
     std::vector<double> startAngle_, turns_;
     std::vector<float> allowed_;
     double substeps_ = 1;  // of the last step
+
+    /// How a body moved between the last looks at it. Turns are ways of its farthest point.
+    struct Watch {
+        double x = 0, y = 0, turned = 0;                 // as of the last look
+        double placeX = 0, placeY = 0, placeTurned = 0;  // near which it has stayed
+        float velocityX = 0, velocityY = 0, swing = 0;   // mean before the last look
+        float stayed = 0;                                // seconds
+        std::uint64_t looks = 0;
+    };
+    std::vector<Watch> watches_;    // [bodies]
+    std::vector<Index> group_;      // [bodies] that fell asleep together: the least of them
+    std::vector<Stillness> still_;  // [bodies] scratch of rest()
+    double sinceLook_ = 0;          // seconds
+    double restH_ = 0;              // substep the impulses of sleeping contacts are of, seconds
+    std::uint32_t sleepers_ = 0;    // bodies
+    bool drowsy_ = false;           // has one fallen asleep after the last step?
+    bool woke_ = false;             // has a body woken since contacts were last looked at?
+    Index movers_ = 0;
+    std::vector<Index> kinematic_;  // bodies
 };
 
 }  // namespace jet::physics

@@ -16,6 +16,7 @@ public:
     /// Checks the anchors; throws a Failure that tells what is missing.
     Index add(const State&, const JointDef&);
     bool empty() const { return joints_.empty(); }
+    Index count() const { return static_cast<Index>(joints_.size()); }
     const JointDef& def(Index joint) const { return joints_[joint].joint.def; }
     bool lives(Index joint) const { return joints_[joint].joint.lives(); }
 
