@@ -100,6 +100,12 @@ void SceneView::invalidate()
     update();
 }
 
+QPointF SceneView::sceneCentre() const
+{
+    const Vec2 at = camera_.toScene({0.5 * width(), 0.5 * height()});
+    return {at.x(), at.y()};
+}
+
 void SceneView::frameAll()
 {
     const Box box = scene_.root().bounds();
@@ -154,6 +160,7 @@ void SceneView::dropTools()
 void SceneView::setToolCursor(const QCursor& cursor)
 {
     toolCursor_ = cursor;
+    setAttribute(Qt::WA_InputMethodEnabled, cursor.shape() == Qt::IBeamCursor);  // else it would take the letter keys
     updateCursor();
 }
 
@@ -290,13 +297,23 @@ bool SceneView::event(QEvent* event)
 
 void SceneView::keyPressEvent(QKeyEvent* event)
 {
-    if (event->key() == Qt::Key_Space && !leftDown_) {
-        spaceHeld_ = true;
-        updateCursor();
+    const bool isPan = event->key() == Qt::Key_Space && !leftDown_;
+    if (isPan && spaceHeld_) return;
+    if (tool_ && tool_->keyPress(keyEventOf(*event))) return;  // also the space bar: a tool may take text
+    if (!isPan) {
+        emit keyUnused(event);
         return;
     }
-    if (tool_ && tool_->keyPress(keyEventOf(*event))) return;
-    emit keyUnused(event);
+    spaceHeld_ = true;
+    updateCursor();
+}
+
+// What an input method made of several keys comes as one.
+void SceneView::inputMethodEvent(QInputMethodEvent* event)
+{
+    const std::string text = event->commitString().toStdString();
+    if (tool_ && !text.empty()) tool_->keyPress({text, text, {}, false});
+    event->accept();
 }
 
 void SceneView::keyReleaseEvent(QKeyEvent* event)
@@ -331,7 +348,8 @@ void SceneView::dropEvent(QDropEvent* event)
     }
     if (files.isEmpty()) return;
     event->acceptProposedAction();
-    emit filesDropped(files);
+    const Vec2 at = camera_.toScene(toVec(event->position()));
+    emit filesDropped(files, {at.x(), at.y()});
 }
 
 }  // namespace jet::host

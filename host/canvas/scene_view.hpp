@@ -36,6 +36,8 @@ public:
     void setGridVisible(bool on);
     /// Paints everything anew: settings or plugins changed.
     void invalidate();
+    /// The point of the scene in the middle of the view.
+    QPointF sceneCentre() const;
 
     /// The tool keeps its state per view: coming back to it finds it as it was left.
     void setTool(const std::string& id);
@@ -53,7 +55,8 @@ signals:
     /// A key the tool had no use for.
     void keyUnused(QKeyEvent* event);
     void contextMenuRequested(const QPoint& globalPosition);
-    void filesDropped(const QStringList& files);
+    /// At a point of the scene.
+    void filesDropped(const QStringList& files, const QPointF& at);
 
 protected:
     bool event(QEvent* event) override;
@@ -66,6 +69,7 @@ protected:
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
+    void inputMethodEvent(QInputMethodEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
     void leaveEvent(QEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;

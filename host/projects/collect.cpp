@@ -12,8 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kFolder = "assets";
-
 class Collector {
 public:
     explicit Collector(Project& project) : project_(project), folder_(project.folder()) {}
@@ -55,28 +53,6 @@ private:
         return fs::is_regular_file(file, ignored);
     }
 
-    /// A transaction changes only what some plugin declares.
-    static bool isChangeable(const AssetReference& reference)
-    {
-        const Item* item = reference.scene->items().find(reference.item);
-        Catalog& catalog = reference.scene->catalog();
-        if (reference.effect < 0) {
-            const ItemType* type = catalog.itemType(item->type());
-            return builtInItemType(item->type()) || type;
-        }
-        return catalog.effect(item->effects()[static_cast<std::size_t>(reference.effect)].type) != nullptr;
-    }
-
-    static void rewrite(Transaction& edit, const AssetReference& reference, const std::string& text)
-    {
-        const Item& item = *reference.scene->items().find(reference.item);
-        if (reference.effect < 0) {
-            edit.set(item, reference.property, text);
-        } else {
-            edit.setEffect(item, static_cast<std::size_t>(reference.effect), reference.property, text);
-        }
-    }
-
     /// Where the file is in the project: there already, or copied now.
     std::string placeFor(const fs::path& file)
     {
@@ -95,54 +71,12 @@ private:
 
     std::string copy(const fs::path& file, const std::string& content)
     {
-        std::error_code problem;
-        fs::create_directories(folder_ / kFolder, problem);
-        if (problem)
-            throw Failure(Error("this folder cannot be made: " + problem.message() + "; check the permissions",
-                                Location{(folder_ / kFolder).string(), 0, 0}));
-        if (const auto same = sameIn(content); !same.empty()) return same;
-        const std::string name = freeName(file);
-        writeFileAtomically(folder_ / kFolder / name, content).orThrow();
-        std::string place = std::string(kFolder) + "/" + name;
-        made_.copies.push_back({file, place});
+        std::error_code ignored;
+        const auto before = std::distance(fs::directory_iterator(folder_ / "assets", ignored), {});
+        std::string place = storeAsset(folder_, file.filename().string(), content).orThrow();
+        const auto after = std::distance(fs::directory_iterator(folder_ / "assets", ignored), {});
+        if (after > before) made_.copies.push_back({file, place});
         return place;
-    }
-
-    /// The place of a file of this content in assets/, if there is one.
-    std::string sameIn(const std::string& content) const
-    {
-        std::vector<fs::path> files;
-        std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(folder_ / kFolder, ignored))
-            if (entry.is_regular_file(ignored) && entry.file_size(ignored) == content.size())
-                files.push_back(entry.path());
-        std::ranges::sort(files);
-        for (const fs::path& file : files)
-            if (const auto other = readFile(file); other && *other == content)
-                return std::string(kFolder) + "/" + file.filename().string();
-        return {};
-    }
-
-    // Also names that differ in case only are taken: the project may go to a disk that does not tell them apart.
-    std::string freeName(const fs::path& file) const
-    {
-        const auto lower = [](std::string name) {
-            for (char& c : name)
-                if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-            return name;
-        };
-        std::vector<std::string> taken;
-        std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(folder_ / kFolder, ignored))
-            taken.push_back(lower(entry.path().filename().string()));
-        std::string stem = file.stem().string();
-        while (stem.starts_with('.')) stem.erase(0, 1);  // hidden files are not packed
-        if (stem.empty()) stem = "asset";
-        const std::string extension = file.extension().string();
-        std::string name = stem + extension;
-        for (int i = 2; std::ranges::find(taken, lower(name)) != taken.end(); ++i)
-            name = stem + " " + std::to_string(i) + extension;
-        return name;
     }
 
     Project& project_;

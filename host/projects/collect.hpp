@@ -2,9 +2,7 @@
 // sent.
 #pragma once
 
-#include "assets.hpp"
-
-#include <jet/project.hpp>
+#include <jet/assets.hpp>
 
 #include <filesystem>
 #include <string>

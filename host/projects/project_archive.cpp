@@ -1,11 +1,10 @@
 #include "project_archive.hpp"
 
-#include "assets.hpp"
-
 #include "host/archive/archive.hpp"
 #include "host/archive/disk.hpp"
 #include "host/archive/entry_name.hpp"
 
+#include <jet/assets.hpp>
 #include <jet/format.hpp>
 
 #include <algorithm>

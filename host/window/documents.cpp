@@ -5,6 +5,8 @@
 #include <QTabBar>
 #include <QToolButton>
 
+#include <algorithm>
+
 namespace jet::host {
 
 Documents::Documents(Editor& editor, ToolOptions& options, QWidget* parent)
@@ -74,12 +76,24 @@ void Documents::closePage(QWidget* page)
     page->deleteLater();
 }
 
+std::vector<const Scene*> Documents::scenes() const
+{
+    std::vector<const Scene*> found;
+    for (const SceneView* view : pages<SceneView>()) found.push_back(&view->scene());
+    for (const ScriptTab* script : pages<ScriptTab>())
+        if (std::find(found.begin(), found.end(), &script->scene()) == found.end()) found.push_back(&script->scene());
+    return found;
+}
+
 void Documents::closeScene(const Scene& scene)
 {
     for (ScriptTab* script : pages<ScriptTab>()) {
-        if (&script->scene() == &scene) delete script;  // now: its scene is about to go
+        if (&script->scene() != &scene) continue;
+        script->commit();
+        delete script;  // now: its scene may be about to go
     }
     if (SceneView* view = viewOf(scene)) {
+        view->endGesture();
         emit viewClosing(view);
         delete view;
     }

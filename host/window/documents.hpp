@@ -16,7 +16,9 @@ public:
 
     SceneView& openScene(Scene& scene);
     ScriptTab& openScript(Scene& scene, ItemId script, int line);
-    /// Closes the scene's tab and those of its scripts.
+    /// The scenes that have a tab, of their own or of a script.
+    std::vector<const Scene*> scenes() const;
+    /// Closes the scene's tab and those of its scripts; what was typed there goes into the scene.
     void closeScene(const Scene& scene);
     void closeAll();
     void closeCurrent();

@@ -1,12 +1,15 @@
 #include "window/edit_controller.hpp"
 
 #include "canvas/insertion_point.hpp"
+#include "window/picture_import.hpp"
 #include "window/scene_clipboard.hpp"
 
 #include <jet/arrange.hpp>
 #include <jet/effect.hpp>
+#include <jet/ui/history_focus.hpp>
 
-#include <QCoreApplication>
+#include <QApplication>
+#include <QMenuBar>
 
 namespace jet::host {
 
@@ -22,25 +25,34 @@ void offset(Transaction& edit, const Item& item) { edit.transform(item, Affine::
 EditController::EditController(Editor& editor, Documents& documents, QObject* parent)
     : QObject(parent), editor_(editor), documents_(documents)
 {
+    connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) { followFocus(now); });
 }
 
 std::vector<ActionSpec> EditController::actions()
 {
     const auto open = [this] { return scene() != nullptr; };
     const auto selected = [this] { return hasSelection(); };
-    const auto undoable = [this] { return scene() && scene()->undoRedo().canUndo(); };
-    const auto redoable = [this] { return scene() && scene()->undoRedo().canRedo(); };
+    const auto undoable = [this] {
+        const History on = history();
+        return on.tree ? on.tree->canUndo() : on.scene && on.scene->canUndo();
+    };
+    const auto redoable = [this] {
+        const History on = history();
+        return on.tree ? on.tree->canRedo() : on.scene && on.scene->canRedo();
+    };
     const auto labelled = [](const char* prefix, const std::string& what) {
         return what.empty() ? QString()
                             : QCoreApplication::translate("Actions", prefix).arg(QString::fromStdString(what));
     };
     const auto undoLabel = [this, labelled] {
-        return scene() ? labelled(QT_TRANSLATE_NOOP("Actions", "&Undo %1"), scene()->undoRedo().undoLabel())
-                       : QString();
+        const History on = history();
+        return labelled(QT_TRANSLATE_NOOP("Actions", "&Undo %1"),
+                        on.tree ? on.tree->undoLabel() : (on.scene ? on.scene->undoLabel() : std::string()));
     };
     const auto redoLabel = [this, labelled] {
-        return scene() ? labelled(QT_TRANSLATE_NOOP("Actions", "&Redo %1"), scene()->undoRedo().redoLabel())
-                       : QString();
+        const History on = history();
+        return labelled(QT_TRANSLATE_NOOP("Actions", "&Redo %1"),
+                        on.tree ? on.tree->redoLabel() : (on.scene ? on.scene->redoLabel() : std::string()));
     };
     return {
         {"edit.undo",
@@ -91,8 +103,41 @@ Scene& EditController::readyScene() const
     return *scene();
 }
 
-void EditController::undo() { readyScene().undoRedo().undo(); }
-void EditController::redo() { readyScene().undoRedo().redo(); }
+void EditController::followFocus(QWidget* now)
+{
+    if (!now || qobject_cast<QMenu*>(now) || qobject_cast<QMenuBar*>(now)) return;
+    focus_ = now;
+    emit historyChanged();
+}
+
+EditController::History EditController::history() const
+{
+    if (const auto focus = ui::historyFocus(focus_)) {
+        if (!focus->scene) return {&editor_.projectTree(), nullptr};
+        const auto all = editor_.project().scenes();
+        if (std::find(all.begin(), all.end(), focus->scene) != all.end()) return {nullptr, &focus->scene->undoRedo()};
+    }
+    Scene* front = scene();
+    return {nullptr, front ? &front->undoRedo() : nullptr};
+}
+
+void EditController::undo()
+{
+    documents_.commitScripts();
+    if (SceneView* view = documents_.currentView()) view->endGesture();
+    const History on = history();
+    if (on.tree) on.tree->undo();
+    if (on.scene) on.scene->undo();
+}
+
+void EditController::redo()
+{
+    documents_.commitScripts();
+    if (SceneView* view = documents_.currentView()) view->endGesture();
+    const History on = history();
+    if (on.tree) on.tree->redo();
+    if (on.scene) on.scene->redo();
+}
 
 // --- clipboard
 
@@ -112,7 +157,11 @@ void EditController::paste(bool inPlace)
     Scene& front = readyScene();
     EventsCenter quiet;  // the clipboard's scene is nobody's business
     const std::unique_ptr<Scene> clips = sceneOnClipboard(quiet, editor_.catalog());
-    if (!clips) return;
+    if (!clips) {
+        const SceneView* view = documents_.viewOf(front);
+        pastePicture(editor_, front, view ? view->sceneCentre() : QPointF());
+        return;
+    }
     auto edit = front.items().begin("Paste");
     const Item& place = insertionPoint(editor_, front, edit);
     std::vector<ItemId> pasted;

@@ -4,6 +4,10 @@
 #include "window/actions.hpp"
 #include "window/documents.hpp"
 
+#include <jet/project_tree.hpp>
+
+#include <QPointer>
+
 namespace jet::host {
 
 class EditController final : public QObject {
@@ -20,6 +24,10 @@ public:
 
     void applyEffect(const std::string& effect);
 
+signals:
+    /// Another history may be what Undo works on.
+    void historyChanged();
+
 private:
     /// The front scene, if it may be edited now.
     Scene* scene() const;
@@ -27,6 +35,14 @@ private:
     /// The front scene with gestures ended and typing committed, ready for a transaction.
     Scene& readyScene() const;
 
+    /// What Undo works on: the history of the panel that has the focus (jet/ui/history_focus.hpp), else that of the
+    /// front scene. At most one of the two is set.
+    struct History {
+        ProjectTree* tree = nullptr;
+        UndoRedoCenter* scene = nullptr;
+    };
+    History history() const;
+    void followFocus(QWidget* now);
     void undo();
     void redo();
     void copy();
@@ -41,6 +57,7 @@ private:
 
     Editor& editor_;
     Documents& documents_;
+    QPointer<QWidget> focus_;  // the last one that is no menu: these take it while they are open
 };
 
 }  // namespace jet::host

@@ -1,9 +1,11 @@
 #include "window/format_controller.hpp"
 
 #include "canvas/insertion_point.hpp"
+#include "window/picture_import.hpp"
 
 #include <jet/format.hpp>
 #include <jet/plugins.hpp>
+#include <jet/ui/pictures.hpp>
 
 #include <QCoreApplication>
 #include <QDragEnterEvent>
@@ -11,6 +13,8 @@
 #include <QFileInfo>
 #include <QMimeData>
 #include <QRegularExpression>
+
+#include <algorithm>
 
 namespace jet::host {
 
@@ -51,6 +55,11 @@ bool FormatController::importFile(const std::filesystem::path& file)
     Scene* scene = documents_.currentScene();
     if (!scene) return false;
     if (SceneView* view = documents_.currentView()) view->endGesture();
+    if (isPicture(file)) {
+        const SceneView* view = documents_.viewOf(*scene);
+        return placePictures(editor_, *scene, {QString::fromStdString(file.string())},
+                             view ? view->sceneCentre() : QPointF());
+    }
     Importer* importer = editor_.catalog().importer(extensionOf(file));
     if (!importer) {
         editor_.showMissing(ContributionKind::Importer, extensionOf(file));
@@ -101,10 +110,32 @@ bool FormatController::exportFile(const std::filesystem::path& file)
     return true;
 }
 
-void FormatController::importFiles(const QStringList& files)
+bool FormatController::isPicture(const std::filesystem::path& file) const
 {
-    for (const QString& file : files)
-        isPackage(file) ? installPackage(file.toStdString()) : static_cast<void>(importFile(file.toStdString()));
+    const std::string extension = extensionOf(file);
+    const auto formats = editor_.catalog().contributions(ContributionKind::Importer);
+    const bool isImported = std::any_of(formats.begin(), formats.end(), [&](const Contribution& format) {
+        return std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end();
+    });
+    return !isImported && ui::isPictureName(file);
+}
+
+void FormatController::importFiles(const QStringList& files, const QPointF& at)
+{
+    QStringList pictures;
+    for (const QString& file : files) {
+        if (isPackage(file)) {
+            installPackage(file.toStdString());
+        } else if (isPicture(file.toStdString())) {
+            pictures << file;
+        } else {
+            importFile(file.toStdString());
+        }
+    }
+    Scene* scene = documents_.currentScene();
+    if (pictures.isEmpty() || !scene) return;
+    if (SceneView* view = documents_.currentView()) view->endGesture();
+    placePictures(editor_, *scene, pictures, at);
 }
 
 void FormatController::installPackage(const std::filesystem::path& file)
@@ -153,9 +184,10 @@ QString FormatController::filters(ContributionKind kind, const QString& all) con
 
 void FormatController::askAndImport()
 {
-    const QString file = QFileDialog::getOpenFileName(window_, tr("Import into the scene"), lastFolder_,
-                                                      filters(ContributionKind::Importer, tr("All formats")), nullptr,
-                                                      QFileDialog::DontUseNativeDialog);
+    const QString offered =
+        filters(ContributionKind::Importer, tr("All formats")) + ";;" + QString::fromStdString(ui::pictureFilter());
+    const QString file = QFileDialog::getOpenFileName(window_, tr("Import into the scene"), lastFolder_, offered,
+                                                      nullptr, QFileDialog::DontUseNativeDialog);
     if (file.isEmpty()) return;
     lastFolder_ = QFileInfo(file).path();
     importFile(file.toStdString());

@@ -2,10 +2,12 @@
 
 #include <jet/ui/icons.hpp>
 
+#include <QApplication>
 #include <QCloseEvent>
 #include <QCoreApplication>
 #include <QLabel>
 #include <QMenuBar>
+#include <QPointer>
 #include <QProgressDialog>
 #include <QSettings>
 #include <QStatusBar>
@@ -95,11 +97,7 @@ QWidget* MainWindow::createCentral()
 
 void MainWindow::createActions()
 {
-    const auto newScene = [this] {
-        Scene& scene = project().addScene(project().freeSceneName());
-        events_.post(static_cast<Editor*>(this), ProjectChanged{});
-        openScene(scene);
-    };
+    const auto newScene = [this] { openScene(projectTree().addScene(project().freeSceneName(), project().root())); };
     actions_.add(projects_.actions());
     actions_.add(pluginController_.actions());
     actions_.add(formats_.actions());
@@ -175,6 +173,7 @@ void MainWindow::connectDocuments()
     connect(documents_, &Documents::frontChanged, this, &MainWindow::frontChanged);
     connect(documents_, &Documents::viewOpened, this, [this](SceneView* view) { prepareView(*view); });
     connect(&projects_, &ProjectController::saved, this, &MainWindow::updateTitle);
+    connect(&edits_, &EditController::historyChanged, &actions_, &Actions::refreshSoon);
     connect(&pluginController_, &PluginController::changed, this, &MainWindow::followPlugins);
 }
 
@@ -203,11 +202,14 @@ void MainWindow::followEvents()
     };
     const auto projectChanged = [this](const ProjectChanged&) {
         activeLayers_.clear();
+        closedByTree_.clear();
         actions_.refreshSoon();
         updateTitle();
     };
     subscriptions_.push_back(events_.subscribe<ItemsChanged>(nullptr, changed));
     subscriptions_.push_back(events_.subscribe<ProjectChanged>(nullptr, projectChanged));
+    subscriptions_.push_back(
+        events_.subscribe<ProjectTreeChanged>(nullptr, [this](const ProjectTreeChanged&) { followTree(); }));
     subscriptions_.push_back(events_.subscribe<SelectionChanged>(nullptr, refresh));
     subscriptions_.push_back(events_.subscribe<SimulationStateChanged>(nullptr, refresh));
     // A plugin may fail at any time, on any thread: asking now and then costs less than another way in.
@@ -235,6 +237,24 @@ void MainWindow::frontChanged()
     if (front == frontScene_) return;
     frontScene_ = front;
     events_.post(static_cast<Editor*>(this), ActiveSceneChanged{front});
+}
+
+void MainWindow::followTree()
+{
+    const std::vector<Scene*> all = project().scenes();
+    const QPointer<QWidget> focus = QApplication::focusWidget();
+    const auto isThere = [&](const Scene* scene) { return std::find(all.begin(), all.end(), scene) != all.end(); };
+    if (simulation_.state() != SimulationCenter::State::Stopped && !isThere(simulation_.scene())) simulation_.stop();
+    for (const Scene* scene : documents_->scenes()) {
+        if (isThere(scene)) continue;
+        documents_->closeScene(*scene);
+        closedByTree_.push_back(scene);
+    }
+    for (Scene* scene : all)
+        if (std::erase(closedByTree_, scene) > 0) documents_->openScene(*scene);
+    if (focus && focus->isVisible()) focus->setFocus();  // tabs that close and open took it from a panel
+    actions_.refreshSoon();
+    updateTitle();
 }
 
 void MainWindow::useKey(QKeyEvent& event)

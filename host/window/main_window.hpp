@@ -69,6 +69,7 @@ public:
     PluginsCenter& plugins() override { return plugins_; }
     void showMissing(ContributionKind kind, std::string_view id) override { pluginController_.showMissing(kind, id); }
     Progress progress(const std::string& label) override;
+    ProjectTree& projectTree() override { return projects_.tree(); }
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -87,6 +88,8 @@ private:
 
     void prepareView(SceneView& view);
     void frontChanged();
+    /// Tabs of scenes that left the project close, and open again when these come back.
+    void followTree();
     void useKey(QKeyEvent& event);
     void updateTitle();
     void updateZoom();
@@ -122,6 +125,7 @@ private:
     QLabel* status_ = nullptr;
     std::map<const Scene*, ItemId> activeLayers_;
     Scene* frontScene_ = nullptr;
+    std::vector<const Scene*> closedByTree_;
     std::vector<Subscription> subscriptions_;
 };
 

@@ -52,7 +52,9 @@ void ProjectController::install(std::unique_ptr<Project> project)
 {
     close();
     journal_.reset();
+    tree_.reset();
     project_ = std::move(project);
+    tree_ = std::make_unique<ProjectTree>(*project_, editor_.events());
     takeLock(project_->file());
     startJournal();  // before the panels know the project: the journal hears of a change first
     editor_.events().post(&editor_, ProjectChanged{});
@@ -87,6 +89,7 @@ void ProjectController::takeLock(const std::filesystem::path& file)
 void ProjectController::close()
 {
     documents_.closeAll();
+    if (isModified()) tree_->revertFiles();
     if (journal_) journal_->discard();  // the user was asked
 }
 
@@ -285,6 +288,7 @@ bool ProjectController::finishSave(const Result<void>& result)
     }
     remember(project_->file());
     takeLock(project_->file());
+    tree_->markSaved();
     for (const std::string& note : project_->saveNotes()) editor_.showMessage(note);
     editor_.showStatus(tr("Saved %1").arg(QDir::toNativeSeparators(textOf(project_->file()))).toStdString());
     emit saved();

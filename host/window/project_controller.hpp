@@ -7,6 +7,7 @@
 
 #include <jet/journal.hpp>
 #include <jet/project_lock.hpp>
+#include <jet/project_tree.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -30,6 +31,7 @@ public:
     void fillRecentMenu(QMenu& menu);
 
     Project& project() const { return *project_; }
+    ProjectTree& tree() const { return *tree_; }
     /// False until the first one is made or opened.
     bool hasProject() const { return project_ != nullptr; }
     /// A new, untitled project.
@@ -111,7 +113,8 @@ private:
     Documents& documents_;
     QWidget* window_;
     std::unique_ptr<Project> project_;
-    std::unique_ptr<Journal> journal_;  // of project_
+    std::unique_ptr<ProjectTree> tree_;  // of project_
+    std::unique_ptr<Journal> journal_;   // of project_
     ProjectLock lock_;
     std::filesystem::path locked_;  // the file lock_ is for
     bool readOnly_ = false;

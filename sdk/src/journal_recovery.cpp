@@ -183,6 +183,7 @@ public:
         buildFilter(contents_.structure.root, root);
         keepForeign(root);
         project.root_ = std::move(root);
+        for (Scene* scene : project.scenes()) scene->setAssetFolder(project.folder().string());
         if (contents_.torn)
             note("The last record of the journal is incomplete: the change that was under way is not in it.");
         recovery_.changes = contents_.changes - lost_;

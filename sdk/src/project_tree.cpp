@@ -1,9 +1,12 @@
+#include "project_tree_files.hpp"
 #include "scene_state.hpp"
 #include "utf8.hpp"
 
 #include <jet/project_tree.hpp>
 
 namespace jet {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -36,7 +39,8 @@ struct Renaming {
     std::string before, after;
 };
 
-using TreeChange = std::variant<Presence<Scene>, Presence<Filter>, Movement<Scene>, Movement<Filter>, Renaming>;
+using TreeChange =
+    std::variant<Presence<Scene>, Presence<Filter>, Movement<Scene>, Movement<Filter>, Renaming, FileMove>;
 
 struct TreeStep {
     std::string label;
@@ -108,6 +112,7 @@ struct ProjectTree::Private {
     EventsCenter& events;
     std::deque<TreeStep> steps;
     std::size_t done = 0, bytes = 0, limit = UndoRedoCenter::kDefaultMemoryLimit;
+    std::vector<FileMove> unsavedFiles = {};  // what happened to files since the last save, oldest first
 
     template <class T>
     Place placeOf(const T& what)
@@ -182,10 +187,17 @@ struct ProjectTree::Private {
         }
     }
 
+    void apply(const FileMove& change, bool forward)
+    {
+        const FileMove now = forward ? change : change.inverse();
+        moveFile(now, project);
+        unsavedFiles.push_back(now);
+    }
+
     void run(TreeStep& step, bool forward)
     {
+        std::visit([&](auto& change) { apply(change, forward); }, step.change);  // fails before it did anything
         bytes -= step.bytes;
-        std::visit([&](auto& change) { apply(change, forward); }, step.change);
         step.bytes = sizeof(TreeStep);
         std::visit(
             [&](const auto& change) {
@@ -198,9 +210,9 @@ struct ProjectTree::Private {
 
     void make(std::string label, TreeChange change)
     {
-        while (steps.size() > done) drop(steps.back()), steps.pop_back();
         TreeStep step{std::move(label), std::move(change)};
         run(step, true);
+        while (steps.size() > done) drop(steps.back()), steps.pop_back();
         steps.push_back(std::move(step));
         ++done;
         forgetOldest();
@@ -237,6 +249,19 @@ Scene& ProjectTree::addScene(std::string name, Filter& parent, std::optional<std
     auto made = Private::take<Scene>({&parent, parent.scenes.size() - 1});
     d_->make(label, Presence<Scene>{&scene, at, true, std::move(made)});
     return scene;
+}
+
+Scene& ProjectTree::duplicate(Scene& scene)
+{
+    const Place at = d_->placeOf(scene);
+    if (scene.items().inTransaction())
+        fail("finish or cancel '" + scene.items().transactionLabel() + "' before duplicating the scene");
+    std::unique_ptr<Scene> made = scene.clone(d_->events);
+    made->setName(freeCopyName(d_->project, scene.name()));
+    Scene& copy = *made;
+    d_->make("Duplicate scene " + scene.name(),
+             Presence<Scene>{&copy, {at.parent, at.index + 1}, true, std::move(made)});
+    return copy;
 }
 
 Filter& ProjectTree::addFilter(std::string name, Filter& parent, std::optional<std::size_t> index)
@@ -325,6 +350,45 @@ void ProjectTree::move(Filter& filter, Filter& parent, std::size_t index)
     if (!isStill(change.from, change.to)) d_->make("Move filter " + filter.name, change);
 }
 
+void ProjectTree::makeStart(Scene& scene)
+{
+    const auto change = movement(d_->placeOf(scene), d_->project.root(), 0, scene);
+    if (!isStill(change.from, change.to)) d_->make("Start with scene " + scene.name(), change);
+}
+
+// --- files
+
+std::string ProjectTree::addFile(const fs::path& source)
+{
+    FileMove added = prepareNewFile(d_->project, source);
+    if (added.from.empty()) return added.newReference;  // it is there already
+    const std::string path = added.newReference;
+    added.newReference.clear();
+    d_->make("Add file " + path, std::move(added));
+    return path;
+}
+
+void ProjectTree::removeFile(const std::string& path)
+{
+    d_->make("Remove file " + path, prepareRemoval(d_->project, path));
+}
+
+void ProjectTree::renameFile(const std::string& path, const std::string& name)
+{
+    FileMove move = prepareRename(d_->project, path, name);
+    if (move.from != move.to) d_->make("Rename file " + path, std::move(move));
+}
+
+void ProjectTree::markSaved() { d_->unsavedFiles.clear(); }
+
+void ProjectTree::revertFiles()
+{
+    std::error_code ignored;
+    for (auto move = d_->unsavedFiles.rbegin(); move != d_->unsavedFiles.rend(); ++move)
+        if (!isShelf(move->from) && !fs::exists(move->from, ignored)) fs::rename(move->to, move->from, ignored);
+    d_->unsavedFiles.clear();
+}
+
 // --- history
 
 bool ProjectTree::canUndo() const { return d_->done > 0; }
@@ -335,14 +399,16 @@ std::string ProjectTree::redoLabel() const { return canRedo() ? d_->steps[d_->do
 void ProjectTree::undo()
 {
     if (!canUndo()) return;
-    d_->run(d_->steps[--d_->done], false);
+    d_->run(d_->steps[d_->done - 1], false);
+    --d_->done;
     d_->tell();
 }
 
 void ProjectTree::redo()
 {
     if (!canRedo()) return;
-    d_->run(d_->steps[d_->done++], true);
+    d_->run(d_->steps[d_->done], true);
+    ++d_->done;
     d_->tell();
 }
 

@@ -1,6 +1,7 @@
 // Names every public type of the SDK, so that debug information and tables of virtual functions tell of all of them,
 // also of those that no exported function mentions. Written by scripts/check-abi --update.
 #include <jet/arrange.hpp>
+#include <jet/assets.hpp>
 #include <jet/box_tool.hpp>
 #include <jet/call_watch.hpp>
 #include <jet/catalog.hpp>
@@ -37,8 +38,10 @@
 #include <jet/settings.hpp>
 #include <jet/simulation.hpp>
 #include <jet/tool.hpp>
+#include <jet/ui/history_focus.hpp>
 #include <jet/ui/number_expression.hpp>
 #include <jet/ui/panel.hpp>
+#include <jet/ui/pictures.hpp>
 #include <jet/ui/qt_painter.hpp>
 #include <jet/unmanaged_plugins.hpp>
 #include <jet/value.hpp>
@@ -60,6 +63,7 @@ TYPE(jet::Alignment)
 TYPE(jet::Distribution)
 TYPE(jet::FlipAxis)
 TYPE(jet::StackOrder)
+TYPE(jet::AssetReference)
 TYPE(jet::BoxTool)
 TYPE(jet::CallWatch)
 TYPE(jet::ContributionKind)
@@ -234,8 +238,10 @@ TYPE(jet::OutputPrinted)
 TYPE(jet::SimulationCenter)
 TYPE(jet::ToolHost)
 TYPE(jet::Tool)
+TYPE(jet::ui::HistoryFocus)
 TYPE(jet::ui::NumberContext)
 TYPE(jet::Panel)
+TYPE(jet::ui::PictureFit)
 TYPE(jet::ui::QtPainter)
 TYPE(jet::UnmanagedPlugins)
 TYPE(jet::ItemId)

@@ -1,7 +1,10 @@
 #include "geometry_samples.hpp"
 #include "scene_fakes.hpp"
 
+#include <jet/format.hpp>
 #include <jet/project_tree.hpp>
+
+#include <gmock/gmock.h>
 
 #include <deque>
 #include <filesystem>
@@ -103,6 +106,45 @@ TEST_F(ProjectTreeTest, ASceneThatWasRemovedSavedAndBroughtBackIsSavedAgain)
     fs::remove_all(folder);
 }
 
+TEST_F(ProjectTreeTest, ADuplicateStandsAfterItsOriginalUnderTheNextFreeName)
+{
+    auto edit = first().items().begin("Add");
+    edit.add<ShapeItem>(first().root(), Path::rectangle(Box({0, 0}, {1, 1})));
+    edit.commit();
+    Scene& level = tree.addScene("Level 9", root());
+    tree.addScene("Level 10", root());
+    EXPECT_EQ(tree.duplicate(level).name(), "Level 11");
+    EXPECT_EQ(project->scenes()[2]->name(), "Level 11");
+    tree.rename(level, "Menu");
+    EXPECT_EQ(tree.duplicate(level).name(), "Menu 2");
+    Scene& copy = tree.duplicate(first());
+    EXPECT_EQ(copy.hash(), first().hash());
+    EXPECT_FALSE(copy.undoRedo().canUndo());
+}
+
+TEST_F(ProjectTreeTest, AFileStepThatFailsLeavesHistoryAndFilesAsTheyWere)
+{
+    const fs::path folder = fs::path(testing::TempDir()) / ("jet-files-" + std::to_string(::getpid()));
+    EXPECT_THAT(failure([&] { tree.addFile("/nowhere"); }), testing::HasSubstr("no folder yet"));
+    project->saveAs(folder).orThrow();
+    fs::create_directories(folder / "assets");
+    writeFileAtomically(folder / "assets/a.txt", std::string_view("a")).orThrow();
+    writeFileAtomically(folder / "assets/b.txt", std::string_view("b")).orThrow();
+    EXPECT_THAT(failure([&] { tree.renameFile("assets/a.txt", "b.txt"); }), testing::HasSubstr("already"));
+    EXPECT_THAT(failure([&] { tree.renameFile("assets/a.txt", "../x"); }), testing::HasSubstr("cannot be the name"));
+    EXPECT_THAT(failure([&] { tree.removeFile("project.jet"); }), testing::HasSubstr("not a file of the project"));
+    EXPECT_THAT(failure([&] { tree.addFile(folder / "none.png"); }), testing::HasSubstr("not there"));
+    EXPECT_EQ(tree.position(), 0u);
+    tree.removeFile("assets/a.txt");
+    writeFileAtomically(folder / "assets/a.txt", std::string_view("another")).orThrow();
+    EXPECT_THAT(failure([&] { tree.undo(); }), testing::HasSubstr("already"));
+    EXPECT_EQ(tree.position(), 1u) << "it can be tried again";
+    fs::remove(folder / "assets/a.txt");
+    tree.undo();
+    EXPECT_EQ(readFile(folder / "assets/a.txt").orThrow(), "a");
+    fs::remove_all(folder);
+}
+
 TEST_F(ProjectTreeTest, EachStepIsTold)
 {
     int told = 0;
@@ -156,16 +198,17 @@ TEST_F(ProjectTreeTest, RandomChangesLeadBackToWhatWas)
         Scene& scene = *scenes[random.index(scenes.size())];
         const std::string name = "Name " + std::to_string(names++);
         try {
-            switch (random.index(all.size() + scenes.size() > 30 ? 6 : 9)) {
+            switch (random.index(all.size() + scenes.size() > 30 ? 7 : 10)) {
             case 0: tree.remove(scene); break;
             case 1: tree.remove(filter); break;
             case 2: tree.rename(scene, name); break;
             case 3: tree.rename(filter, name); break;
             case 4: tree.move(scene, filter, random.index(4)); break;
             case 5: tree.move(filter, other, random.index(4)); break;
-            case 6: tree.addFilter(name, filter, random.index(4)); break;
-            case 7: tree.renameProject(name); break;
-            default: tree.addScene(name, filter, random.index(4));
+            case 6: tree.makeStart(scene); break;
+            case 7: tree.addFilter(name, filter, random.index(4)); break;
+            case 8: tree.renameProject(name); break;
+            default: random.index(2) ? tree.addScene(name, filter, random.index(4)) : tree.duplicate(scene);
             }
             if (std::exchange(changed, false)) {  // not what was so already
                 log.resize(tree.position());

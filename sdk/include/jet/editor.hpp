@@ -11,6 +11,7 @@
 namespace jet {
 
 class PluginsCenter;
+class ProjectTree;
 
 /// Sent by the Editor.
 struct ProjectChanged {  ///< another project was opened or its scenes changed
@@ -61,6 +62,9 @@ public:
     /// cancelled. The window shows a bar with a Cancel button after half a second; it is gone when the returned object
     /// is. Call it outside of transactions: compute first, then change the scene. The default never cancels.
     virtual Progress progress(const std::string& label);
+    /// The way to change the project's tree of scenes so that it can be undone (jet/project_tree.hpp). Another one
+    /// after each ProjectChanged of another project.
+    virtual ProjectTree& projectTree() = 0;
 };
 
 /// A menu command. Stateless; declared in the manifest with menu, label and shortcut.

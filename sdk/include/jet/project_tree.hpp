@@ -1,6 +1,6 @@
-// ProjectTree: changes of a project's tree of filters and scenes that can be undone, by the same rules as changes of a
-// scene: a step is whole or not at all, old states come back exactly, and a scene that was removed comes back as it
-// was, with its own history.
+// ProjectTree: changes of a project's tree of filters and scenes, and of its files, that can be undone, by the same
+// rules as changes of a scene: a step is whole or not at all, old states come back exactly, and a scene that was
+// removed comes back as it was, with its own history. The window's is Editor::projectTree().
 //
 //   ProjectTree tree(project, events);
 //   Scene& level = tree.addScene("Level 2", project.root());
@@ -43,6 +43,25 @@ public:
     /// Puts it before `index` among the scenes (filters) of `parent`, counted without itself.
     void move(Scene& scene, Filter& parent, std::size_t index);
     void move(Filter& filter, Filter& parent, std::size_t index);
+    /// A copy under the next free name, right after it: content, settings, materials and symbols, without history.
+    Scene& duplicate(Scene& scene);
+    /// The scene that plays when none is named is the first one: moves it there, to the top of the root filter.
+    void makeStart(Scene& scene);
+
+    /// Copies a file into the project's assets/ (jet/assets.hpp) and returns its path in the project. No step where a
+    /// file of that content is there already.
+    std::string addFile(const std::filesystem::path& source);
+    /// Takes an asset out of the project; scenes may not refer to it. Undone, it is there again: meanwhile it lies in
+    /// the hidden folder .jet-removed, where it stays when the history ends.
+    void removeFile(const std::string& path);
+    /// Gives an asset another name in its folder, and rewrites what refers to it, as one step of each scene.
+    void renameFile(const std::string& path, const std::string& name);
+    /// The project was saved: revertFiles() goes back to here.
+    void markSaved();
+    /// Files change at once, scenes when they are saved. When the project is closed without saving, this puts removed
+    /// and renamed files back to where the saved scenes expect them. Added ones stay.
+    void revertFiles();
+
     /// Renames the project itself.
     void renameProject(std::string name);
 

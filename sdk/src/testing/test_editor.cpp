@@ -3,8 +3,8 @@
 namespace jet::test {
 
 TestEditor::TestEditor(EventsCenter& events, Catalog& catalog)
-    : events_(events), catalog_(catalog), project_(Project::create("Test", events, catalog)), simulation_(events),
-      plugins_(catalog)
+    : events_(events), catalog_(catalog), project_(Project::create("Test", events, catalog)),
+      tree_(std::make_unique<ProjectTree>(*project_, events)), simulation_(events), plugins_(catalog)
 {
 }
 

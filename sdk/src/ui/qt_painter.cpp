@@ -3,6 +3,7 @@
 
 #include "picture_files.hpp"
 #include "qt_convert.hpp"
+#include "text_font.hpp"
 
 #include <QFontMetricsF>
 #include <QGuiApplication>
@@ -15,9 +16,6 @@
 namespace jet::ui {
 
 namespace {
-
-// Fonts have whole pixel sizes in Qt: text in scene units is set at this size and scaled.
-constexpr int kFontPixels = 128;
 
 QPointF alignment(const QFont& font, const QString& text, const TextStyle& style)
 {
@@ -93,10 +91,8 @@ void QtPainter::text(const Vec2& at, std::string_view utf8, const TextStyle& sty
     if (!(style.size > 0)) return;
     ensureGuiApplication();  // fonts belong to it
     const QString string = QString::fromUtf8(utf8.data(), qsizetype(utf8.size()));
-    QFont font = target_.font();
-    font.setHintingPreference(QFont::PreferNoHinting);
-    if (!style.family.empty()) font.setFamily(QString::fromStdString(style.family));
-    font.setPixelSize(style.cosmetic ? std::max(1, int(std::lround(style.size))) : kFontPixels);
+    const int pixels = style.cosmetic ? std::max(1, int(std::lround(style.size))) : kFontPixels;
+    const QFont font = textFont(target_.font(), style.family, pixels);
 
     target_.save();
     target_.setPen(toQt(style.color));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <jet/editor.hpp>
+#include <jet/project_tree.hpp>
 #include <jet/unmanaged_plugins.hpp>
 
 #include <memory>
@@ -48,6 +49,7 @@ public:
     }
     /// Notes what is reported in `progressed`, and cancels from `cancelAt` on.
     Progress progress(const std::string& label) override;
+    ProjectTree& projectTree() override { return *tree_; }
 
     std::vector<OutputLine> output;
     std::vector<std::string> messages;
@@ -61,6 +63,7 @@ private:
     EventsCenter& events_;
     Catalog& catalog_;
     std::unique_ptr<Project> project_;
+    std::unique_ptr<ProjectTree> tree_;
     SimulationCenter simulation_;
     UnmanagedPlugins plugins_;
     Scene* activeScene_ = nullptr;

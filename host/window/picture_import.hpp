@@ -1,0 +1,18 @@
+// Pictures that come from outside: files dropped on a scene or imported into it, and what is on the clipboard.
+#pragma once
+
+#include <jet/editor.hpp>
+
+#include <QPointF>
+#include <QStringList>
+
+namespace jet::host {
+
+/// Adds an image item for each file, as one undo step, selected; the first one about `at`, the next a little aside. The
+/// user is told about files that are no pictures. False when none was placed.
+bool placePictures(Editor& editor, Scene& scene, const QStringList& files, const QPointF& at);
+/// The same with the clipboard's picture: files copied in a file manager, or pixels, which become a PNG file of the
+/// project. False, and nothing said, when there is none.
+bool pastePicture(Editor& editor, Scene& scene, const QPointF& at);
+
+}  // namespace jet::host

@@ -1,0 +1,24 @@
+// History focus: which history Edit > Undo works on while the keyboard focus is in a panel. Without it that is the
+// front scene's, whatever panel has the focus.
+#pragma once
+
+#include <jet/scene.hpp>
+
+#include <optional>
+
+class QWidget;
+
+namespace jet::ui {
+
+struct HistoryFocus {
+    Scene* scene = nullptr;  ///< null: the history of the project's tree, Editor::projectTree()
+};
+
+/// While the focus is in this widget or in one inside of it, Edit > Undo and Redo work on that history. Set it anew
+/// when the user did something that went to another one. [GUI thread]
+JET_API void setHistoryFocus(QWidget& widget, HistoryFocus focus);
+/// That of the widget or of the nearest one around it that has one. The scene may have gone since: look for it in the
+/// project before using it. [GUI thread]
+JET_API std::optional<HistoryFocus> historyFocus(const QWidget* widget);
+
+}  // namespace jet::ui
