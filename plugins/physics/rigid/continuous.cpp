@@ -130,7 +130,8 @@ bool Collider::surprise(Index index, float gain, double dt)
 float Collider::withinBox(Index body, const Vec2& move, double dt) const
 {
     const Pose& pose = poses_[body];
-    const double room = static_cast<double>(std::max(0.1F * typical_, room_[body]));
+    // A surprise was looked ahead of in the whole circle.
+    const double room = static_cast<double>(std::max(0.1F * typical_, room_[body]) + surprise_[body]);
     const Vec2 expected(dt * static_cast<double>(pose.velocityX), dt * static_cast<double>(pose.velocityY));
     double part = 1;
     for (int axis = 0; axis < 2; ++axis) {

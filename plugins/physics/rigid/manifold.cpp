@@ -176,11 +176,13 @@ static Manifold sides(const Part& a, const Placed& b, const Relative& at, float 
     }
     const int nextA = (sideA + 1) % a.count, nextB = (sideB + 1) % b.count;
     const Vec2f a1 = a.corners[sideA], a2 = a.corners[nextA], b1 = b.corners[sideB], b2 = b.corners[nextB];
-    if (std::max(separationA, separationB) > 1e-4F * a.length) {
-        // Apart: corners may be nearer than any side says.
+    const float separation = std::max(separationA, separationB);
+    if (separation > 1e-4F * a.length) {
+        // Apart: corners may be farther from each other than any side says. Where they are not, two sides face each
+        // other whose corners lie opposite; they meet at both ends at once.
         const Nearest n = nearestOfSegments(a1, a2, b1, b2);
         const bool cornerA = n.alongA == 0 || n.alongA == 1, cornerB = n.alongB == 0 || n.alongB == 1;
-        if (cornerA && cornerB)
+        if (cornerA && cornerB && dot(n.onB - n.onA, n.onB - n.onA) > 1.001F * separation * separation)
             return betweenPoints(n.onA, n.onB, a.radius, b.radius, at, reach, a.normals[sideA],
                                  n.alongA == 0 ? sideA : nextA, n.alongB == 0 ? sideB : nextB);
     }

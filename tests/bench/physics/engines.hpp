@@ -35,5 +35,7 @@ struct JetOptions {
 std::unique_ptr<Engine> makeJet(const Scene&, const JetOptions&);
 std::unique_ptr<Engine> makeBox2d(const Scene&);
 std::unique_ptr<Engine> makeChipmunk(const Scene&);
+/// For scenes of soft bodies between fixed boxes.
+std::unique_ptr<Engine> makeBullet(const Scene&);
 
 }  // namespace jet::bench

@@ -1,122 +1,119 @@
-// jet-bench-physics: JET beside Debian's Box2D 2.4.1 and Chipmunk 7, the same scenes, the same step, one thread, no
-// sleeping; CPU time of a step and the quality of what came out.
-//
-//   jet-bench-physics [--scene NAME]... [--scene-file FILE]... [--threads N] [--simd sse2|avx2]
-//                     [--precision double|single] [--substeps N] [--only ENGINE] [--check FOLDER] [--summary-json FILE]
-#include "bench/physics/quality.hpp"
-#include "bench/physics/quality_soft.hpp"
+// jet-bench-physics: JET beside Debian's Box2D 2.4.1, Chipmunk 7 and Bullet's soft bodies, the same scenes, the same
+// step, one thread, no sleeping; CPU time of a step and the quality of what came out. `--help` tells the options.
+#include "bench/physics/contestant.hpp"
 
-#include <malloc.h>
+#include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <stdexcept>
+#include <thread>
 
 namespace jet::bench {
 
 namespace {
 
 struct Options {
-    std::vector<std::string> scenes, files;
+    std::vector<std::string> scenes, files, only;
     JetOptions jet;
-    std::string only, check, summary;
+    std::string check, summary;
 };
 
-double milliseconds(clockid_t clock)
+const char* widestSimd() { return __builtin_cpu_supports("avx2") > 0 ? "avx2" : "sse2"; }
+
+std::string processor()
 {
-    timespec now{};
-    clock_gettime(clock, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "not known";
 }
 
-struct Measured {
-    double median = 0, p95 = 0, wall = 0;  // ms a step
-    std::size_t memory = 0, heap = 0;      // bytes: as the engine counts, as the heap grew
-    nlohmann::ordered_json quality;
+struct Entry {
+    std::string key, label;  // in the JSON, in the table
+    Contestant::Make make;
 };
 
-std::size_t heapInUse()
+/// JET with the widest instructions first: what the others are compared with.
+std::vector<Entry> entries(const Scene& scene, const Options& options)
 {
-    const struct mallinfo2 info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-}
-
-Measured measure(const Scene& scene, Engine& engine)
-{
-    std::vector<double> times, walls;
-    times.reserve(static_cast<std::size_t>(scene.steps)), walls.reserve(static_cast<std::size_t>(scene.steps));
-    for (int i = 0; i < scene.warmUpSteps; ++i) engine.step(scene.dt);
-    std::vector<Pose> before = posesOf(engine, scene.bodies.size());
-    SoftWatch watch(scene);
-    for (int i = 0; i < scene.steps; ++i) {
-        if (i == scene.steps - 1) before = posesOf(engine, scene.bodies.size());
-        const double start = milliseconds(CLOCK_THREAD_CPUTIME_ID), wall = milliseconds(CLOCK_MONOTONIC);
-        engine.step(scene.dt);
-        times.push_back(milliseconds(CLOCK_THREAD_CPUTIME_ID) - start);
-        walls.push_back(milliseconds(CLOCK_MONOTONIC) - wall);
-        watch.see(engine);
-    }
-    Measured result;
-    result.heap = heapInUse();
-    const std::vector<Pose> now = posesOf(engine, scene.bodies.size());
-    result.quality = qualityOf(scene, before, now);
-    if (!scene.soft.empty()) result.quality.update(watch.quality(now));
-    result.memory = engine.memory();
-    std::sort(times.begin(), times.end());
-    std::sort(walls.begin(), walls.end());
-    result.median = times[times.size() / 2];
-    result.p95 = times[times.size() * 95 / 100];
-    result.wall = walls[walls.size() / 2];
-    return result;
-}
-
-nlohmann::ordered_json compare(const Scene& scene, const Options& options)
-{
-    const std::vector<std::pair<std::string, std::function<std::unique_ptr<Engine>()>>> engines = {
-        {"jet", [&] { return makeJet(scene, options.jet); }},
-        {"box2d_241", [&] { return makeBox2d(scene); }},
-        {"chipmunk", [&] { return makeChipmunk(scene); }},
+    std::vector<Entry> all;
+    const auto jet = [&](const std::string& key, const std::string& simd) {
+        JetOptions chosen = options.jet;
+        chosen.simd = simd;
+        all.push_back({key, "jet " + simd, [&scene, chosen] { return makeJet(scene, chosen); }});
     };
-    nlohmann::ordered_json json = {{"scene", scene.name}, {"bodies", scene.bodies.size()}, {"steps", scene.steps}};
-    double jet = 0;
-    for (const auto& [name, make] : engines) {
-        if (!options.only.empty() && options.only != name) continue;
-        const std::size_t heap = heapInUse();
-        std::unique_ptr<Engine> engine;
-        try {
-            engine = make();
-        } catch (const std::exception& problem) {
-            json[name + "_problem"] = problem.what();
-            std::printf("%-22s %-10s %s\n", scene.name.c_str(), name.c_str(), problem.what());
-            continue;
-        }
-        Measured result = measure(scene, *engine);
-        result.heap -= std::min(result.heap, heap);
-        json[name + "_ms"] = result.median;
-        json[name + "_p95_ms"] = result.p95;
-        json[name + "_wall_ms"] = result.wall;
-        json[name + "_heap_bytes_a_body"] = result.heap / scene.bodies.size();
-        if (name == "jet") {
-            jet = result.median;
-            if (result.memory > 0) json["jet_bytes_a_body"] = result.memory / scene.bodies.size();
-        } else if (jet > 0) {
-            json["ratio_" + name] = result.median / jet;
-        }
-        json[name == "jet" ? "quality" : "quality_" + name] = result.quality;
-        std::printf("%-22s %-10s %8.3f ms  p95 %8.3f", scene.name.c_str(), name.c_str(), result.median, result.p95);
-        if (name == "jet") {
-            std::printf("              ");
-        } else {
-            std::printf("  jet %5.2f x ", jet > 0 ? result.median / jet : 0);
-        }
-        std::printf(" %5zu B/body  %s\n", result.heap / scene.bodies.size(), result.quality.dump().c_str());
-        std::fflush(stdout);
+    const std::string first = options.jet.simd.empty() ? widestSimd() : options.jet.simd;
+    jet("jet", first);
+    if (options.jet.simd.empty() && first != "sse2") jet("jet_sse2", "sse2");
+    all.push_back({"box2d_241", "box2d 2.4.1", [&] { return makeBox2d(scene); }});
+    all.push_back({"chipmunk", "chipmunk 7", [&] { return makeChipmunk(scene); }});
+    if (!scene.soft.empty()) all.push_back({"bullet", "bullet 3.24", [&] { return makeBullet(scene); }});
+    if (options.only.empty()) return all;
+    std::erase_if(all, [&](const Entry& entry) {
+        return std::find(options.only.begin(), options.only.end(), entry.key) == options.only.end();
+    });
+    return all;
+}
+
+bool isJet(const std::string& key) { return key.rfind("jet", 0) == 0; }
+
+void report(const Scene& scene, const std::string& label, const std::string& key, const Contestant& one, double jet,
+            nlohmann::ordered_json& json)
+{
+    std::printf("%-22s %-12s ", scene.name.c_str(), label.c_str());
+    if (!one.problem().empty()) {
+        json[key + "_problem"] = one.problem();
+        std::printf("has no result: %s\n", one.problem().c_str());
+        return;
     }
-    return json;
+    const Measured& result = one.result();
+    const std::size_t heap = result.heap / scene.bodies.size();
+    json[key + "_ms"] = result.median;
+    json[key + "_p95_ms"] = result.p95;
+    json[key + "_wall_ms"] = result.wall;
+    json[key + "_heap_bytes_a_body"] = heap;
+    if (isJet(key) && result.memory > 0) json[key + "_bytes_a_body"] = result.memory / scene.bodies.size();
+    json[key == "jet" ? "quality" : "quality_" + key] = result.quality;
+    std::printf("%8.3f ms  p95 %8.3f  ", result.median, result.p95);
+    if (jet > 0 && key != "jet") {
+        if (!isJet(key)) json["ratio_" + key] = result.median / jet;
+        std::printf("jet %6.2f x ", result.median / jet);
+    } else {
+        std::printf("             ");
+    }
+    std::printf(" %5zu B/body  %s\n", heap, result.quality.dump().c_str());
+}
+
+/// Did JET come through?
+bool compare(const Scene& scene, const Options& options, nlohmann::ordered_json& scenes)
+{
+    const std::vector<Entry> all = entries(scene, options);
+    std::vector<std::unique_ptr<Contestant>> contestants;
+    for (const Entry& entry : all) contestants.push_back(std::make_unique<Contestant>(scene, entry.make));
+    std::vector<bool> runs(all.size(), true);
+    for (bool any = true; any;) {
+        any = false;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (runs[i]) runs[i] = contestants[i]->stretch();
+            any = any || runs[i];
+        }
+    }
+    nlohmann::ordered_json json = {{"scene", scene.name},
+                                   {"bodies", scene.bodies.size()},
+                                   {"steps", scene.steps},
+                                   {"simd", options.jet.simd.empty() ? widestSimd() : options.jet.simd}};
+    bool fine = true;
+    double jet = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].key == "jet" && contestants[i]->problem().empty()) jet = contestants[i]->result().median;
+        report(scene, all[i].label, all[i].key, *contestants[i], jet, json);
+        fine = fine && !(isJet(all[i].key) && !contestants[i]->problem().empty());
+    }
+    std::fflush(stdout);
+    scenes.push_back(json);
+    return fine;
 }
 
 int check(const std::string& folder)
@@ -132,51 +129,50 @@ int check(const std::string& folder)
     return differing > 0;
 }
 
-Options parse(int argc, char** argv)
+void declare(CLI::App& app, Options& options)
 {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string key = argv[i];
-        if (i + 1 >= argc) throw std::runtime_error(key + " needs a value, or is not known.");
-        const std::string value = argv[++i];
-        if (key == "--scene")
-            options.scenes.push_back(value);
-        else if (key == "--scene-file")
-            options.files.push_back(value);
-        else if (key == "--threads")
-            options.jet.threads = std::stoi(value);
-        else if (key == "--simd")
-            options.jet.simd = value;
-        else if (key == "--precision")
-            options.jet.precision = value;
-        else if (key == "--substeps")
-            options.jet.substeps = std::stoi(value);
-        else if (key == "--only")
-            options.only = value;
-        else if (key == "--check")
-            options.check = value;
-        else if (key == "--summary-json")
-            options.summary = value;
-        else
-            throw std::runtime_error("The option " + key + " is not known.");
-    }
-    if (options.scenes.empty() && options.files.empty()) options.scenes = sceneNames();
-    return options;
+    app.add_option("--scene", options.scenes, "Only this scene; may repeat")->check(CLI::IsMember(sceneNames()));
+    app.add_option("--scene-file", options.files, "A scene from a file; may repeat")->check(CLI::ExistingFile);
+    app.add_option("--threads", options.jet.threads, "Of JET")->check(CLI::Range(1, 64))->capture_default_str();
+    app.add_option("--simd", options.jet.simd,
+                   "JET with these instructions alone (else: the widest, and sse2 beside it)")
+        ->check(CLI::IsMember({"sse2", "avx2"}));
+    app.add_option("--precision", options.jet.precision, "Of JET's rigid solver")
+        ->check(CLI::IsMember({"double", "single"}));
+    app.add_option("--substeps", options.jet.substeps, "Of JET's rigid solver; 0: its own choice")
+        ->check(CLI::Range(0, 4096));
+    app.add_option("--only", options.only, "Only this engine; may repeat")
+        ->check(CLI::IsMember({"jet", "jet_sse2", "box2d_241", "chipmunk", "bullet"}));
+    app.add_option("--check", options.check, "Compare the scenes with the files of this folder, measure nothing")
+        ->check(CLI::ExistingDirectory);
+    app.add_option("--summary-json", options.summary, "Write all of it to this file");
+    app.footer(
+        "The engines of a scene take turns, 30 steps each, every one in a process of its own: one that aborts has\n"
+        "no result, and the others go on. Exit code 1: JET has no result; 2: bad usage.");
 }
 
-int run(int argc, char** argv)
+int run(Options& options)
 {
-    const Options options = parse(argc, argv);
     if (!options.check.empty()) return check(options.check);
+    if (options.scenes.empty() && options.files.empty()) options.scenes = sceneNames();
     nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
-    for (const std::string& name : options.scenes) scenes.push_back(compare(makeScene(name), options));
-    for (const std::string& file : options.files) scenes.push_back(compare(loadScene(file), options));
+    bool fine = true;
+    std::printf("%s, %u threads; JET: %s, %d thread%s\n", processor().c_str(), std::thread::hardware_concurrency(),
+                options.jet.simd.empty() ? widestSimd() : options.jet.simd.c_str(), options.jet.threads,
+                options.jet.threads == 1 ? "" : "s");
+    for (const std::string& name : options.scenes) fine = compare(makeScene(name), options, scenes) && fine;
+    for (const std::string& file : options.files) fine = compare(loadScene(file), options, scenes) && fine;
     if (!options.summary.empty()) {
+        const nlohmann::ordered_json all = {{"processor", processor()},
+                                            {"processor_threads", std::thread::hardware_concurrency()},
+                                            {"widest_simd", widestSimd()},
+                                            {"jet_threads", options.jet.threads},
+                                            {"scenes", scenes}};
         std::ofstream out(options.summary);
-        out << nlohmann::ordered_json{{"scenes", scenes}}.dump(2) << "\n";
+        out << all.dump(2) << "\n";
         if (!out) throw std::runtime_error("The summary could not be written to " + options.summary + ".");
     }
-    return 0;
+    return fine ? 0 : 1;
 }
 
 }  // namespace
@@ -185,8 +181,16 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    CLI::App app("JET's physics beside Box2D 2.4.1, Chipmunk 7 and Bullet's soft bodies", "jet-bench-physics");
+    jet::bench::Options options;
+    jet::bench::declare(app, options);
     try {
-        return jet::bench::run(argc, argv);
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& problem) {
+        return app.exit(problem) == 0 ? 0 : 2;
+    }
+    try {
+        return jet::bench::run(options);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "jet-bench-physics: error: %s\n", problem.what());
         return 2;
