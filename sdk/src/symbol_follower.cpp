@@ -448,9 +448,19 @@ void ItemsCenter::Private::Links::Follower::syncFields(const Item& from, const I
     syncPath(to, placedPath(from.path(), placement));
 }
 
+/// With the properties of the new type and no others: where two instances disagree, nothing else may set them.
 void ItemsCenter::Private::Links::Follower::syncType(const Item& from, const Item& to)
 {
-    if (from.type() != to.type()) d_.make(TypeChanged{to.id(), to.type(), from.type()});
+    if (from.type() == to.type()) return;
+    const PropertyTable* table = itemTable(d_.catalog, from.type());
+    std::vector<PropertyChanged> dropped;
+    for (const auto& [id, value] : to.properties().entries())
+        if (table && !table->find(id)) dropped.push_back({to.id(), id, value, Value()});
+    for (PropertyChanged& change : dropped) d_.make(std::move(change));
+    d_.make(TypeChanged{to.id(), to.type(), from.type()});
+    if (!table) return;
+    for (const PropertySpec& spec : table->specs())
+        if (!to.properties().find(spec.id)) d_.make(PropertyChanged{to.id(), spec.id, Value(), spec.fallback});
 }
 
 void ItemsCenter::Private::Links::Follower::syncProperties(const Item& from, const Item& to, const ItemPairs& pairs)

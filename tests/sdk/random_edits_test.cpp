@@ -295,6 +295,10 @@ protected:
         nothing ? expectRemembered("nothing") : remember();
     }
 
+    static std::string kindAndText(const Value& value)
+    {
+        return value.text() + " (kind " + std::to_string(static_cast<int>(value.kind())) + ")";
+    }
     static std::string firstDifference(const Item& a, const Item& b)
     {
         const std::string name = "item " + std::to_string(b.id().value) + " '" + b.name() + "': ";
@@ -304,7 +308,8 @@ protected:
         if (a.path().text() != b.path().text()) return name + a.path().text() + " and " + b.path().text();
         for (const auto& [id, value] : b.properties().entries())
             if (a.property(id) != value)
-                return name + id + " is " + value.text() + ", in the file " + a.property(id).value_or("none").text();
+                return name + a.type() + " " + id + " is " + kindAndText(value) + ", in the file " +
+                       kindAndText(a.property(id).value_or("none"));
         if (a.properties() != b.properties()) return name + "properties";
         if (!std::ranges::equal(a.effects(), b.effects())) return name + "effects";
         if (a.children().size() != b.children().size()) return name + "number of members";
@@ -338,7 +343,7 @@ protected:
         }
     }
 
-    test::Random random_{20261126};
+    test::Random random_{20261125};
     std::vector<std::string_view> types_;
     std::vector<const Item*> everything_;
     std::deque<std::uint64_t> log_{scene.hash()};  // by place in the history

@@ -261,6 +261,31 @@ TEST_F(NestedSymbols, PlacesOfInnerInstancesFollowInTheOuterOnes)
     expectExact();
 }
 
+// One cart makes a spring of what the other, in the same step, makes a wheel: whichever comes last, all of it is.
+TEST_F(NestedSymbols, TypesThatTwoInstancesDisagreeAboutLeaveNoPropertiesOfTheOther)
+{
+    for (const bool springFirst : {true, false}) {
+        edit([&](Transaction& t) {
+            const Item& dot = t.add<ShapeItem>(layer(), Path::line({0, 0}, {1, 1}));
+            const Item& empty = *createSymbol(t, scene, std::vector<const Item*>{&dot}, "Empty");
+            t.remove(dot);
+            t.move(empty, cart(), 0);
+        });
+        ASSERT_THAT(membersOf(cart2()), ElementsAre("Empty", "Wheel", "Wheel", "Board"));
+        edit([&](Transaction& t) {
+            const auto makeASpring = [&](const Item& cart) { t.setType(*cart.children()[0], "spring"); };
+            const auto makeAWheel = [&](const Item& cart) { swapSymbol(t, *cart.children()[0], wheel()); };
+            springFirst ? makeASpring(cart()) : makeAWheel(cart());
+            springFirst ? makeAWheel(cart2()) : makeASpring(cart2());
+        });
+        EXPECT_EQ(cart().children()[0]->type(), cart2().children()[0]->type());
+        expectExact();
+        history().undo();
+        expectExact();
+        history().undo();
+    }
+}
+
 TEST_F(NestedSymbols, ASymbolMadeInsideOfAnInstanceIsMadeInAll)
 {
     edit([&](Transaction& t) {
