@@ -116,6 +116,18 @@ void printSummary(const Session& session, const CheckReport& report)
     std::printf("%s: %td errors, of which --repair mends %td\n", file.c_str(), left, mendable);
 }
 
+/// With --frozen nothing is written before the plugins are compared.
+void compareBeforeRepair(Session& session, const fs::path& project)
+{
+    const auto report = checkProjectFiles(project, session.events(), session.plugins(), {false, schemaFolder()});
+    if (!report) throw Failure(report.error());
+    if (!report->project)
+        throw Failure(Error("which plugins this project records cannot be read before it is repaired; repair it "
+                            "without --frozen",
+                            Location{report->file.string(), 0, 0}));
+    session.comparePlugins(*report->project);
+}
+
 int check(Session& session, const ProjectCheckOptions& o)
 try {
     if (o.repair && isPackedProject(o.project))
@@ -129,6 +141,7 @@ try {
         if (!taken && !o.force) return fail(session, taken.error());
         if (taken) lock = std::move(*taken);
     }
+    if (o.repair && session.options().frozen) compareBeforeRepair(session, project);
     const auto report = checkProjectFiles(project, session.events(), session.plugins(), {o.repair, schemaFolder()});
     if (!report) return fail(session, report.error());
     for (const Finding& finding : report->findings) tell(session, finding);

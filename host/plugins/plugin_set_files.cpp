@@ -105,10 +105,13 @@ private:
         PluginSet set;
         set.title = source.text("name");
         set.description = source.text("description");
+        source.text("$schema");
         warnOfUnknown(source, set);
         const auto includes = source.list("include", "names or files of sets");
-        for (std::size_t i = 0; i < includes.size(); ++i)
+        for (std::size_t i = 0; i < includes.size(); ++i) {
+            if (includes[i].empty()) throw Failure(Error("an entry of include is empty", source.of("include", i)));
             set.includes.push_back(read(includes[i], source.of("include", i)));
+        }
         const std::string ids = "plugin ids, each a text like \"org.example.name >=1.2 <3\"";
         readEntries(source, "plugins", ids, set.plugins);
         readEntries(source, "optional", ids, set.plugins);
@@ -137,15 +140,25 @@ private:
             PluginSet::Entry entry;
             entry.where = source.of(field, i);
             entry.optional = std::string_view(field) == "optional";
-            if (texts[i].ends_with('*') && texts[i].find(' ') == std::string::npos) {
-                entry.plugin.id = texts[i];
-            } else {
-                auto plugin = Dependency::parse(texts[i]);
-                if (!plugin) throw Failure(Error(plugin.error().message, entry.where));
-                entry.plugin = std::move(*plugin);
-            }
+            auto plugin = readEntry(texts[i]);
+            if (!plugin) throw Failure(Error(plugin.error().message, entry.where));
+            entry.plugin = std::move(*plugin);
+            if (std::string_view(field) == "exclude" && !entry.plugin.range.isAny())
+                throw Failure(Error("an exclusion takes no versions; write \"" + entry.plugin.id +
+                                        "\", or ask for other versions under plugins",
+                                    entry.where));
             entries.push_back(std::move(entry));
         }
+    }
+
+    /// An id with a range of versions, or the beginning of ids and a star.
+    static Result<Dependency> readEntry(const std::string& text)
+    {
+        if (!text.ends_with('*') || text.find(' ') != std::string::npos) return Dependency::parse(text);
+        // What begins an id becomes one with a letter and a part more.
+        if (!isPluginId(text.substr(0, text.size() - 1) + "x.x"))
+            return Error("'" + text + "' begins no id; write it as org.example.*");
+        return Dependency{text, {}};
     }
 
     PluginSetFiles::Listed find(const std::string& nameOrFile, const Location& from) const

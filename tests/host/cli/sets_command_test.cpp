@@ -164,6 +164,28 @@ TEST_F(SetsCommandTest, AFrozenProjectPlaysWithItsVersionsAndFailsWithOthers)
     EXPECT_FALSE(exists("out.png") && std::filesystem::file_size(home() / "out.png") == 0);
 }
 
+TEST_F(SetsCommandTest, FrozenRepairsNothingWithOtherPlugins)
+{
+    copyGame();
+    std::string project = read("ball/project.jet");
+    project.replace(project.find("polygon-face\" version=\"1.0.0"), 28, "polygon-face\" version=\"1.4.0");
+    write("ball/project.jet", project);
+    const auto scene = [&] { return read("ball/scenes/Scene 0.scene"); };
+    std::string broken = scene();
+    broken.replace(broken.find("id=\"4\""), 6, "id=\"3\"");
+    write("ball/scenes/Scene 0.scene", broken);
+    ASSERT_EQ(plain("project check ball").code, 1);
+    const Outcome run = plain("project check ball --repair --frozen");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_THAT(run.err, HasSubstr("cannot be read before it is repaired; repair it without --frozen")) << run.out;
+    EXPECT_EQ(scene(), broken);
+    EXPECT_EQ(plain("project check ball --repair").code, 0);
+    EXPECT_NE(scene(), broken);
+    const Outcome now = plain("project check ball --repair --frozen");
+    EXPECT_EQ(now.code, 1);
+    EXPECT_THAT(now.err, HasSubstr("org.jet.effect.polygon-face: the project wants 1.4.0")) << now.out;
+}
+
 TEST_F(SetsCommandTest, AFrozenSetFailsForEveryCommandAndListsEveryDifference)
 {
     write("ci.jetset", R"({ "plugins": ["org.jet.io-svg =1.0.0", "org.jet.io-png =9.0.0", "org.acme.rope =1.0.0"] })");

@@ -77,7 +77,7 @@ TEST(ManifestTest, TheRightOneOfManyEqualFieldsIsNamed)
                 HasSubstr("plugin.json:7:27: error: \"contributes.tools[1].label\": must be a text"));
 }
 
-// The schema goes by the same table (tests/sdk/plugin_schema_test.py).
+// The schema goes by the same table (tests/sdk/json_schema_test.py).
 TEST(ManifestTest, TheTableOfManifestsIsJudgedAsTheSchemaDoes)
 {
     std::ifstream in(JET_SOURCE_DIR "/tests/fixtures/manifests.json");

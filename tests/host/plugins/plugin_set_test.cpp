@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace jet::host {
 namespace {
@@ -118,6 +119,25 @@ TEST_F(PluginSetTest, MistakesAreToldWithTheirPlace)
     EXPECT_THAT(read("slip").warnings[0].text(),
                 HasSubstr("slip.jetset:2:3: error: this JET knows no field 'exlude' of plugin sets; did you mean "
                           "'exclude'?"));
+}
+
+// The schema goes by the same table (tests/sdk/json_schema_test.py).
+TEST_F(PluginSetTest, TheTableOfSetsIsJudgedAsTheSchemaDoes)
+{
+    std::ifstream in(JET_SOURCE_DIR "/tests/fixtures/sets.json");
+    const auto table = nlohmann::json::parse(in);
+    ASSERT_GT(table["cases"].size(), 20u);
+    write("base", R"({ "plugins": [] })");
+    for (const auto& entry : table["cases"]) {
+        SCOPED_TRACE(entry["name"]);
+        write("case", entry["set"].dump(1));
+        const auto set = PluginSetFiles().choose("case");
+        const std::string verdict = !set ? "refused" : set->warnings.empty() ? "good" : "warned";
+        std::string said = set ? "" : set.error().text();
+        if (verdict == "warned") said = set->warnings[0].text();
+        EXPECT_EQ(verdict, entry["verdict"]) << said;
+        EXPECT_THAT(said, HasSubstr(entry.value("says", "")));
+    }
 }
 
 TEST_F(PluginSetTest, ACycleOfIncludesIsNamedWithItsWholeChain)
