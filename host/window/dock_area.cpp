@@ -7,8 +7,10 @@
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenu>
+#include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
+#include <QTimer>
 
 #include <algorithm>
 
@@ -26,6 +28,19 @@ Qt::DockWidgetArea areaOf(const Contribution& panel)
     if (panel.area == "left") return Qt::LeftDockWidgetArea;
     if (panel.area == "bottom") return Qt::BottomDockWidgetArea;
     return Qt::RightDockWidgetArea;
+}
+
+/// A panel that is higher than its place scrolls, else the tallest panel of a tab bar would take the others' room.
+QScrollArea* scrolling(QWidget& content)
+{
+    constexpr int kWidest = 300;  // pixels
+    auto* area = new QScrollArea;
+    area->setFrameShape(QFrame::NoFrame);
+    area->setWidgetResizable(true);
+    area->setMinimumWidth(std::min(content.minimumSizeHint().width(), kWidest));
+    area->setWidget(&content);
+    area->setFocusProxy(&content);
+    return area;
 }
 
 }  // namespace
@@ -117,7 +132,7 @@ void DockArea::fillWhenSeen(Dock& dock, bool visible)
         widget = label;
     }
     GuardedApplication::setOwner(*widget, dock.failed ? std::string() : dock.panel.plugin);
-    dock.widget->setWidget(widget);
+    dock.widget->setWidget(scrolling(*widget));
 }
 
 void DockArea::dropContent(const std::string& plugin)
@@ -159,6 +174,26 @@ void DockArea::placeDefault()
         dock->widget->show();
     }
     for (QDockWidget* front : fronts) front->raise();
+    fronts_ = fronts;
+    shareOut();
+    QTimer::singleShot(0, this, [this] {  // a window that was not shown yet has no room to share
+        if (!restored_) shareOut();
+    });
+}
+
+/// Columns of equal parts beside a canvas that gets most of the window.
+void DockArea::shareOut()
+{
+    constexpr int kColumn = 360, kBottom = 210;  // pixels
+    for (const auto area : {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::BottomDockWidgetArea}) {
+        QList<QDockWidget*> here;
+        for (QDockWidget* front : std::as_const(fronts_))
+            if (window_.dockWidgetArea(front) == area) here << front;
+        const bool column = area != Qt::BottomDockWidgetArea;
+        const auto along = column ? Qt::Vertical : Qt::Horizontal, across = column ? Qt::Horizontal : Qt::Vertical;
+        window_.resizeDocks(here, QList<int>(here.size(), window_.height()), along);
+        window_.resizeDocks(here, QList<int>(here.size(), column ? kColumn : kBottom), across);
+    }
 }
 
 // --- the layout between runs
@@ -178,7 +213,7 @@ void DockArea::restoreLayout(QSettings& settings)
 {
     window_.restoreGeometry(settings.value("layout/geometry").toByteArray());
     createStandIns(settings.value("layout/docks").toStringList());
-    window_.restoreState(settings.value("layout/state").toByteArray(), kLayoutVersion);
+    restored_ = window_.restoreState(settings.value("layout/state").toByteArray(), kLayoutVersion);
     for (const auto& standIn : std::as_const(standIns_)) {
         if (!standIn->isHidden()) shownStandIns_ << standIn->objectName();
         standIn->hide();
@@ -203,6 +238,7 @@ void DockArea::saveLayout(QSettings& settings)
 void DockArea::resetLayout()
 {
     setMaximized(false);
+    restored_ = false;
     for (const auto& dock : docks_) {
         dock->widget->setFloating(false);
         window_.removeDockWidget(dock->widget);

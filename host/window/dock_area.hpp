@@ -69,6 +69,7 @@ private:
     void empty(Dock& dock);
     void fillWhenSeen(Dock& dock, bool visible);
     void placeDefault();
+    void shareOut();
     void createStandIns(const QStringList& names);
 
     QMainWindow& window_;
@@ -76,6 +77,8 @@ private:
     std::vector<std::unique_ptr<Dock>> docks_;
     QMap<QString, QPointer<QDockWidget>> standIns_;  // by object name; of absent panels
     QStringList shownStandIns_;
+    QList<QDockWidget*> fronts_;  // of the default arrangement: one of each tab bar
+    bool restored_ = false;       // the arrangement is the user's
     bool maximized_ = false;
     QList<QDockWidget*> hiddenByMaximize_;
 };

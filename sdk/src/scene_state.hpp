@@ -125,10 +125,9 @@ struct ItemsCenter::Private {
     /// Where a call that makes several changes began, to take them back when it fails half-way.
     class Savepoint {
     public:
-        explicit Savepoint(Private& d)
-            : d_(d), changes_(d.changes.size()), nextId_(d.nextId), selection_((d.selection(), d.ordered))
-        {
-        }
+        /// May hold ids of items that were removed before: they are not there when it is restored, either, and asking
+        /// for the selection without them at each of many removals would cost the square of their number.
+        explicit Savepoint(Private& d) : d_(d), changes_(d.changes.size()), nextId_(d.nextId), selection_(d.ordered) {}
         void restore() const
         {
             d_.revertTo(changes_);

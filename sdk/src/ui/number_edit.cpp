@@ -20,6 +20,7 @@ NumberEdit::NumberEdit(const PropertySpec& spec, QWidget* parent)
     setFocusPolicy(Qt::StrongFocus);
     setKeyboardTracking(false);
     lineEdit()->setPlaceholderText(QCoreApplication::translate("PropertyEditor", "several values"));
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     connect(this, &QAbstractSpinBox::editingFinished, this, [this] { finish(); });
 }
 
@@ -142,6 +143,12 @@ QSize NumberEdit::sizeHint() const
 {
     const int width = fontMetrics().horizontalAdvance(QStringLiteral("-00000.00 ") + suffix_);
     return {width + 24, QAbstractSpinBox::sizeHint().height()};
+}
+
+/// Two side by side fit into a narrow column.
+QSize NumberEdit::minimumSizeHint() const
+{
+    return {fontMetrics().horizontalAdvance(QStringLiteral("0000")) + 24, QAbstractSpinBox::minimumSizeHint().height()};
 }
 
 }  // namespace jet::ui
