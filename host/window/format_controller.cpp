@@ -73,8 +73,11 @@ bool FormatController::importFile(const std::filesystem::path& file)
     const bool wasEmpty = scene->root().bounds().isNull();
     std::vector<FormatNote> notes;
     auto edit = scene->items().begin("Import " + file.filename().string());
-    ImportRequest request{file, bytesOf(*content), edit, insertionPoint(editor_, *scene, edit), notes, {}};
+    const Item& place = insertionPoint(editor_, *scene, edit);
+    const std::size_t before = place.children().size();
+    ImportRequest request{file, bytesOf(*content), edit, place, notes, {}};
     const Result<void> read = importer->read(request);
+    if (read) adoptPictures(edit, *scene, place, before);
     report(notes);
     if (!read) {
         edit.rollback();

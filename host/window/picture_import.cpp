@@ -3,6 +3,7 @@
 #include "canvas/insertion_point.hpp"
 
 #include <jet/assets.hpp>
+#include <jet/format.hpp>
 #include <jet/ui/pictures.hpp>
 
 #include <QBuffer>
@@ -25,6 +26,23 @@ QStringList pictureFiles(const QMimeData& data)
     for (const QUrl& url : data.urls())
         if (url.isLocalFile() && ui::isPictureName(url.toLocalFile().toStdString())) files << url.toLocalFile();
     return files;
+}
+
+/// The picture's bytes and a name for them; an empty name: it cannot be read.
+std::pair<std::string, std::string> contentOf(const std::string& file)
+{
+    if (!file.starts_with("data:")) {
+        auto content = readFile(file);
+        return {content ? std::filesystem::path(file).filename().string() : "", content ? *content : ""};
+    }
+    const QByteArray address = QByteArray::fromStdString(file);
+    const qsizetype comma = address.indexOf(',');
+    const QByteArray kind = address.left(comma);
+    const QByteArray text = QByteArray::fromPercentEncoding(address.mid(comma + 1));
+    const QByteArray bytes = kind.endsWith(";base64") ? QByteArray::fromBase64(text) : text;
+    QByteArray extension = kind.mid(kind.indexOf('/') + 1);
+    extension.truncate(std::max<qsizetype>(extension.indexOf(';'), 0));
+    return {"picture." + (extension.isEmpty() ? std::string("png") : extension.toStdString()), bytes.toStdString()};
 }
 
 bool pastePixels(Editor& editor, Scene& scene, const QImage& image, const QPointF& at)
@@ -71,6 +89,28 @@ bool placePictures(Editor& editor, Scene& scene, const QStringList& files, const
     edit.setSelection(std::move(made));
     edit.commit();
     return true;
+}
+
+void adoptPictures(Transaction& edit, const Scene& scene, const Item& parent, std::size_t first)
+{
+    const std::filesystem::path folder = scene.assetFolder();
+    if (folder.empty()) return;
+    const auto adopt = [&](const Item& item) {
+        if (!item.is<ImageItem>()) return;
+        const auto file = item.property("file")->as<std::string>();
+        const bool isData = file.starts_with("data:");
+        if (!isData && !std::filesystem::path(file).is_absolute()) return;
+        if (!isData && liesIn(file, folder)) {
+            const auto whole = std::filesystem::absolute(folder).lexically_normal();
+            edit.set(item, "file", std::filesystem::path(file).lexically_relative(whole).generic_string());
+            return;
+        }
+        const auto [name, content] = contentOf(file);
+        if (name.empty()) return;
+        if (const auto stored = storeAsset(folder, name, content)) edit.set(item, "file", *stored);
+    };
+    const auto children = parent.children();
+    for (std::size_t i = first; i < children.size(); ++i) children[i]->walk(adopt);
 }
 
 bool pastePicture(Editor& editor, Scene& scene, const QPointF& at)

@@ -34,8 +34,6 @@ bool passesConditions(const Element& element)
 std::string_view unsupported(Tag tag)
 {
     switch (tag) {
-    case Tag::Text: return "text is not drawn";
-    case Tag::Image: return "images are not drawn, and no file is read for them";
     case Tag::ForeignObject: return "content that is not SVG is not drawn";
     default: return {};
     }
@@ -45,7 +43,8 @@ std::string_view unsupported(Tag tag)
 
 Drawing::Drawing(const Document& document, ImportRequest& request, Report& report)
     : document_(document), request_(request), report_(report), styles_(document),
-      shapes_(document, styles_, request, report)
+      shapes_(document, styles_, request, report), texts_(document, styles_, request, report),
+      images_(document, request, report)
 {
 }
 
@@ -61,12 +60,17 @@ Result<void> Drawing::draw()
         const ElementIndex e = frame.cursor;
         frame.cursor = document_[e].next;
         visit(e, frame.place, {});
-        full_ = shapes_.count() + containers_ > kMostItems;
+        full_ = shapes_.count() + texts_.count() + images_.count() + containers_ > kMostItems;
         const double done = double(e) / double(document_.elements().size());
         if (step % kProgressStep == 0 && !request_.progress(done)) return Error("The import was cancelled.");
     }
     if (full_) report_.note("the drawing has more than a million items; the rest is left out", 0);
-    if (pageUnknown_) setPage(shapes_.drawn().isNull() ? Vec2(0, 0) : Vec2(shapes_.drawn().max.cwiseMax(0.0)));
+    if (pageUnknown_) {
+        Box drawn = shapes_.drawn();
+        drawn.extend(texts_.drawn());
+        drawn.extend(images_.drawn());
+        setPage(drawn.isNull() ? Vec2(0, 0) : Vec2(drawn.max.cwiseMax(0.0)));
+    }
     return {};
 }
 
@@ -111,8 +115,9 @@ void Drawing::visit(ElementIndex e, const Place& around, std::string_view name)
     const Element& element = document_[e];
     const bool isContainer = element.tag == Tag::Group || element.tag == Tag::Anchor || element.tag == Tag::Switch ||
                              element.tag == Tag::Use || element.tag == Tag::Svg;
+    const bool isLeaf = element.tag == Tag::Text || element.tag == Tag::Image;
     const std::string_view problem = unsupported(element.tag);
-    if ((!isContainer && !isShape(element.tag) && problem.empty()) || !passesConditions(element)) return;
+    if ((!isContainer && !isShape(element.tag) && !isLeaf && problem.empty()) || !passesConditions(element)) return;
     Place place = around;
     place.style = styles_.compute(e, around.style, around.lengths);
     place.lengths.fontSize = place.style.fontSize;
@@ -134,6 +139,8 @@ void Drawing::visit(ElementIndex e, const Place& around, std::string_view name)
     case Tag::Switch: visitSwitch(e, place, name); break;
     case Tag::Svg: visitViewport(e, kNoElement, std::move(place), name); break;
     case Tag::Use: visitUse(e, std::move(place), name); break;
+    case Tag::Text: texts_.add(e, name, place); break;
+    case Tag::Image: images_.add(e, name, place); break;
     default: addShape(e, place, name); break;
     }
 }

@@ -4,7 +4,9 @@
 // (<use>) are followed by opening what they refer to as if it stood there.
 #pragma once
 
+#include "image_items.hpp"
 #include "shape_items.hpp"
+#include "text_items.hpp"
 #include "viewport.hpp"
 
 #include <deque>
@@ -51,6 +53,8 @@ private:
     Report& report_;
     StyleResolver styles_;
     ShapeItems shapes_;
+    TextItems texts_;
+    ImageItems images_;
     std::deque<Frame> frames_;        // a deque: references stay valid while frames are opened
     std::vector<ElementIndex> uses_;  // the references being followed, outermost first
     std::size_t usesFollowed_ = 0;

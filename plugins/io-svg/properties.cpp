@@ -175,6 +175,17 @@ bool readReference(Style& style, Value value, Lengths)
     return style.*Flag = value != "none", true;
 }
 
+bool readAnchor(Style& style, Value value, Lengths)
+{
+    if (value != "start" && value != "middle" && value != "end") return false;
+    return style.anchor = value, true;
+}
+
+bool readWeight(Style& style, Value value, Lengths)
+{
+    return style.bold = value == "bold" || value == "bolder" || parseNumber(value).value_or(400) >= 600, true;
+}
+
 bool readStopColor(Style& style, Value value, Lengths)
 {
     if (equalsIgnoringCase(value, "currentColor")) return style.stopColor = style.color, true;
@@ -206,6 +217,13 @@ const PropertyRule kRules[] = {
     {"marker-start", true, readMarker<true, false, false>, copyMarker<0>},
     {"marker-mid", true, readMarker<false, true, false>, copyMarker<1>},
     {"marker-end", true, readMarker<false, false, true>, copyMarker<2>},
+    {"font-family", true, [](Style& s, Value v, Lengths) { return s.fontFamily = v, true; }, copy<&Style::fontFamily>},
+    {"font-weight", true, readWeight, copy<&Style::bold>},
+    {"font-style", true, [](Style& s, Value v, Lengths) { return s.italic = v != "normal", true; },
+     copy<&Style::italic>},
+    {"text-anchor", true, readAnchor, copy<&Style::anchor>},
+    {"dominant-baseline", false, [](Style& s, Value v, Lengths) { return s.baseline = v, true; },
+     copy<&Style::baseline>},
     {"display", false, [](Style& s, Value v, Lengths) { return s.display = v != "none", true; }, copy<&Style::display>},
     {"opacity", false, [](Style& s, Value v, Lengths) { return readRatio(s.opacity, v); }, copy<&Style::opacity>},
     {"clip-path", false, readReference<&Style::hasClipPath>, copy<&Style::hasClipPath>},

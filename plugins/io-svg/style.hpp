@@ -48,7 +48,11 @@ struct Style {
     bool visible = true;
     PaintOrder order;
     std::array<std::string_view, 3> markers;  ///< ids of marker-start, -mid and -end; empty: none
+    std::string_view fontFamily;              ///< a list, as written
+    std::string_view anchor = "start";
+    bool bold = false, italic = false;
     // not inherited
+    std::string_view baseline = "auto";  ///< dominant-baseline
     bool display = true;
     double opacity = 1;
     bool hasClipPath = false, hasMask = false, hasFilter = false;

@@ -80,6 +80,8 @@ private:
     void ask()
     {
         delete dialog_;
+        if (!qobject_cast<QApplication*>(QCoreApplication::instance()))
+            return host().showStatus("Without a window nobody can be asked: set the tool's option \"file\".");
         dialog_ =
             new QFileDialog(QApplication::activeWindow(), QApplication::translate("ImageTool", "Place a picture"));
         dialog_->setObjectName("image-tool-file");
