@@ -81,6 +81,33 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
     for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
 }
 
+/// Some steps of the power method, from all weights 1; takes those with the lowest bound.
+void SoftSprings::weigh(StiffnessBounds& bounds, const State& state, const Mesh& mesh)
+{
+    constexpr int kSteps = 12;
+    const Nodes& nodes = state.nodes;
+    double lowest = std::numeric_limits<double>::infinity();
+    weight_.assign(mesh.nodes.count, 1.0);
+    for (int step = 0; step <= kSteps && mesh.springs.count > 0; ++step) {
+        load_.assign(mesh.nodes.count, 0.0);
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+            if (a_[i] == b_[i]) continue;
+            const Index a = a_[i] - mesh.nodes.first, b = b_[i] - mesh.nodes.first;
+            const double both = stiffnessOf(mesh, i) * (weight_[a] + weight_[b]);
+            load_[a] += both * nodes.invMass[a_[i]], load_[b] += both * nodes.invMass[b_[i]];
+        }
+        double most = 0;
+        for (Index k = 0; k < mesh.nodes.count; ++k) most = std::max(most, load_[k] / weight_[k]);
+        if (!(most > 0) || !std::isfinite(most)) return;
+        if (most < lowest && step > 0)
+            for (Index k = 0; k < mesh.nodes.count; ++k)
+                bounds.weigh(mesh.nodes.first + k, static_cast<float>(weight_[k]));
+        lowest = std::min(lowest, most);
+        for (Index k = 0; k < mesh.nodes.count; ++k)
+            weight_[k] = static_cast<double>(static_cast<float>(0.5 * (weight_[k] + load_[k] / most)));
+    }
+}
+
 /// Finds which bodies are computed together.
 void SoftSprings::arrange(const State& state)
 {
@@ -141,15 +168,18 @@ void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, st
 }
 
 /// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
-void SoftSprings::addTo(StiffnessBounds& bounds, const State& state) const
+void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
 {
     for (const Mesh& mesh : meshes_) {
+        if (loose && angular_.empty()) weigh(bounds, state, mesh);
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
             if (a_[i] == b_[i]) continue;
-            for (Index node : {a_[i], b_[i]}) {
-                bounds.add(node, stiffnessOf(mesh, i) * state.nodes.invMass[node]);
-                bounds.addDamping(node, dampingOf(mesh, i) * state.nodes.invMass[node]);
-            }
+            const auto act = [&](Index node, Index other) {
+                const double part = bounds.part(node, other) * state.nodes.invMass[node];
+                bounds.add(node, stiffnessOf(mesh, i) * part);
+                bounds.addDamping(node, dampingOf(mesh, i) * part);
+            };
+            act(a_[i], b_[i]), act(b_[i], a_[i]);
         }
     }
     for (const Angular& spring : angular_) {
@@ -195,7 +225,8 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
         const double wanted = damping_[k] + h * (ks - stiffness_[k]);
         damping_[k] = inverse > 0 ? (1 - decay(h * wanted * inverse)) / (h * inverse) : 0;
         if (a == b) continue;
-        for (Index node : {a, b}) load_[node - mesh.nodes.first] += h * damping_[k] * nodes.invMass[node];
+        load_[a - mesh.nodes.first] += h * damping_[k] * nodes.invMass[a] * bounds.part(a, b);
+        load_[b - mesh.nodes.first] += h * damping_[k] * nodes.invMass[b] * bounds.part(b, a);
     }
     for (Index k = 0; k < mesh.nodes.count; ++k) {
         const Index node = mesh.nodes.first + k;

@@ -28,7 +28,8 @@ public:
     /// The springs of the world's newest body; `nodeOf`: particle -> node of the world.
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
-    void addTo(StiffnessBounds&, const State&) const;
+    /// `loose`: nothing but these springs acts on soft bodies, so their nodes may be weighed.
+    void addTo(StiffnessBounds&, const State&, bool loose);
     /// Fixes what depends on the length of a substep.
     /// `plain`: stiffness and damping as they are, whatever comes of it.
     void prepare(const State&, const StiffnessBounds&, double h, bool plain = false);
@@ -115,6 +116,7 @@ private:
         return (mesh.uniform ? mesh.tearRatio : tearRatio(i)) * (drawn_.empty() ? rest_[i] : drawn_[i]);
     }
     double tearRatio(Index i) const { return tear_.empty() ? 0 : tear_[i]; }
+    void weigh(StiffnessBounds&, const State&, const Mesh&);
     void arrange(const State&);
     void watchTears(soft::Batch&);
     void prepareMesh(const State&, const StiffnessBounds&, const Mesh&, double h);
@@ -144,7 +146,7 @@ private:
     // Scratch of the body or batch at work.
     std::vector<float> planes_;
     std::vector<std::uint32_t> tornBlocks_;
-    std::vector<double> stiffness_, damping_, load_;
+    std::vector<double> stiffness_, damping_, load_, weight_;
 };
 
 }  // namespace jet::physics

@@ -113,7 +113,7 @@ void World::prepareStiffness()
 {
     if (rate_ >= 0) return;
     bounds_.reset(state_.nodes.size());
-    springs_.addTo(bounds_, state_);
+    springs_.addTo(bounds_, state_, !actuators_.anySpring());
     actuators_.addTo(bounds_, state_);
     rate_ = 0;
     for (const BodyRecord& body : state_.bodies)
