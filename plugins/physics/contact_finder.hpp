@@ -22,6 +22,8 @@ public:
     const std::vector<Motion>& motions() const { return motions_; }
     /// Pairs with a body that is not simple, but for those of softPairs().
     const std::vector<BodyPair>& pairs() const { return pairs_; }
+    /// [nodes] where they were; nothing where nothing could meet.
+    std::span<const Vec2> positions() const { return lonely_ ? std::span<const Vec2>() : position_; }
     /// Pairs that soft/contacts.hpp takes; ascending.
     const std::vector<BodyPair>& softPairs() const { return softPairs_; }
 

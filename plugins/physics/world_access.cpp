@@ -104,6 +104,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
     const Vec2 shift = centre - state_.readings.position[handle];
     rigid_.disturb(handle);
     rouse(handle);
+    softContacts_.carry(handle, shift.norm());
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.position[p] = state_.pointNow(p);
     updateReading(state_, handle);
@@ -154,6 +155,7 @@ void World::archive(Self& self, Archive& with)
         with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.active), with(c.engaged), with(c.along);
         with(c.normalImpulse), with(c.tangentImpulse), with(c.stepImpulse);
     });
+    self.softContacts_.keep();
     self.softContacts_.archive(with);
     self.softJoints_.archive(with);
     self.tears_.archive(with, self.state_);

@@ -83,11 +83,11 @@ void World::stepPart(double dt)
                 finder_.find(state_, settings_, dt, contacts_.points, stats_);
                 for (ContactPoint& c : contacts_.points) c.stepImpulse = 0;
             } else {
+                softContacts_.travel(state_, finder_.positions());
                 finder_.find(state_, settings_, dt - now, contacts_.points, stats_);
                 finder_.collectEnded(contacts_.points, ended_);
             }
             contacts_.begin(state_);
-            softContacts_.keep();
             softContacts_.find(state_, settings_, finder_.motions(), finder_.softPairs(), dt - now, i == 0);
             soughtAt = now;
         }
@@ -100,7 +100,7 @@ void World::stepPart(double dt)
     pushed_ = false;
     restIfDue(dt);
     springs_.flow(state_, dt);
-    softContacts_.keep();
+    if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
     if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
     updateReadings(state_);
@@ -112,6 +112,7 @@ void World::stepPart(double dt)
 void World::prepareStiffness()
 {
     if (rate_ >= 0) return;
+    softContacts_.outdate();
     bounds_.reset(state_.nodes.size());
     springs_.addTo(bounds_, state_, !actuators_.anySpring());
     actuators_.addTo(bounds_, state_);
@@ -164,6 +165,7 @@ void World::report()
     touching_.clear();
     for (const ContactPoint& c : contacts_.points) reportContact(c);
     for (const ContactPoint& c : ended_) reportContact(c);
+    softContacts_.keep();
     softContacts_.each(state_, [&](const ContactPoint& c) { reportContact(c); });
     const std::size_t others = reports_.size();
     rigid_.report(reports_, touching_);

@@ -1,18 +1,20 @@
 #include "contacts.hpp"
 
-#include "border.hpp"
-
-#include <limits>
-#include <tuple>
+#include <cmath>
+#include <utility>
 
 namespace jet::physics::soft {
 
 namespace {
 
-constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;      // as in contact_solver.cpp
-constexpr double kSharpInset = 2, kBluntOverhang = 2;                               // in slops
-constexpr double kLean = 0.3, kFacing = 0.2, kHeldBonus = 0.5, kFoldedPenalty = 2;  // as in narrow_phase.cpp
+constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;  // as in contact_solver.cpp
+constexpr double kBluntOverhang = 2;                                            // in slops
 constexpr int kBouncePasses = 4;
+// Pairs that move less than so many lengths in a step are looked at again only once they have moved that much further.
+constexpr double kSlowLengths = 0.1, kRoomLengths = 0.04;
+// Contacts that act get new seats once they are spread over this many times the lanes they need, and so many more.
+constexpr double kMostSpread = 1.5, kLeastSpread = 64;
+constexpr std::size_t kSlack = 256;  // touches that are over, and are kept for a while
 constexpr double kLeastSingle = 1e-15, kMostSingle = 1e15;
 
 Softness softness(double hertz, double h)
@@ -28,39 +30,11 @@ Particles particlesOf(State& state)
     return {nodes.position[0].data(), nodes.velocity[0].data(), nodes.invMass.data()};
 }
 
-struct View {
-    double height, along, distance, length;
-    Vec2 normal;
-    bool valid;
-};
-
-View view(const State& state, Index wall, const Vec2& at)
+bool isEmpty(const ContactBlock& block)
 {
-    const Vec2& first = state.points.position[state.walls.first[wall]];
-    const Vec2 edge = state.points.position[state.walls.second[wall]] - first, off = at - first;
-    const double squared = edge.squaredNorm();
-    View seen{};
-    seen.valid = squared > 1e-24 && state.walls.outward[wall] != 0;
-    if (!seen.valid) return seen;
-    seen.length = std::sqrt(squared);
-    seen.normal = perpendicular(edge) * (state.walls.outward[wall] / seen.length);
-    seen.height = off.dot(seen.normal);
-    seen.along = off.dot(edge) / squared;
-    seen.distance = (off - std::clamp(seen.along, 0.0, 1.0) * edge).norm();
-    return seen;
-}
-
-bool insidePiece(const State& state, const BodyRecord& body, Index piece, const Vec2& at)
-{
-    bool in = false;
-    for (Index w = body.walls.first; w < body.walls.end(); ++w) {
-        if (body.pieces[state.walls.first[w] - body.points.first] != piece) continue;
-        const Vec2 &p = state.points.position[state.walls.first[w]], &q = state.points.position[state.walls.second[w]];
-        if ((p.y() > at.y()) != (q.y() > at.y()) &&
-            at.x() < p.x() + (at.y() - p.y()) / (q.y() - p.y()) * (q.x() - p.x()))
-            in = !in;
-    }
-    return in;
+    for (int lane = 0; lane < kWide; ++lane)
+        if (block.side[lane] != 0) return false;
+    return true;
 }
 
 }  // namespace
@@ -78,11 +52,63 @@ void Contacts::find(State& state, const WorldSettings& settings, const std::vect
                     std::span<const BodyPair> bodies, double dt, bool first)
 {
     if (first) ended_.clear();
-    pairs_.swap(pairsBefore_), touches_.swap(touchesBefore_);
-    pairs_.clear(), touches_.clear();
+    path_.resize(state.bodies.size(), 0.0);
+    if (refill_ || blocks_.empty()) rebuild(state);
+    while (!blocks_.empty() && isEmpty(blocks_.back())) blocks_.pop_back();
+    pairs_.swap(pairsBefore_);
+    plan(state, settings, motions, bodies);
+    look(state, motions, dt, first);
+    for (ContactBlock& block : blocks_) {
+        block.idle = 0;
+        if (first) block.stepImpulse = Floats{};
+    }
+    if (first) kept_ = false;
+    if (unseated_ || !wellSeated()) {
+        keep();
+        compact();
+        seat(state);
+    } else if (touches_.size() > 2 * live() + kSlack) {
+        compact();
+    }
+}
+
+/// Surveys the pairs that must be, and moves what they keep over.
+void Contacts::look(State& state, const std::vector<Motion>& motions, double dt, bool first)
+{
     walls_.clear();
     skins_.resize(state.bodies.size());
     skinned_.assign(state.bodies.size(), 0);
+    auto before = pairsBefore_.begin();
+    const auto leave = [&](Pair& pair) {
+        keep(pair);
+        for (Index i = pair.first; i < pair.end; ++i) {
+            if (!first && touches_[i].stepImpulse > 0) ended_.push_back(asContact(state, pair, touches_[i]));
+            vacate(touches_[i]);
+        }
+    };
+    for (Pair& pair : pairs_) {
+        while (before != pairsBefore_.end() && comesBefore(*before, pair)) leave(*before++);
+        before_ = before != pairsBefore_.end() && !comesBefore(pair, *before) ? &*before++ : nullptr;
+        if (pair.kept != 0) continue;
+        if (before_) keep(*before_);
+        pair.first = static_cast<Index>(touches_.size());
+        survey(state, motions, pair, dt);
+        pair.end = static_cast<Index>(touches_.size());
+        if (before_) carryOver(state, *before_, pair, first);
+        if (pair.resolve == 0 || unseated_) continue;
+        for (Index i = pair.first; i < pair.end; ++i) {
+            if (touches_[i].seat == kNone) touches_[i].seat = seatAmong(state, touches_[i]);
+            fill(state, pair, touches_[i]);
+        }
+    }
+    while (before != pairsBefore_.end()) leave(*before++);
+}
+
+/// What the pairs of this step are, and which of them need not be looked at again.
+void Contacts::plan(const State& state, const WorldSettings& settings, const std::vector<Motion>& motions,
+                    std::span<const BodyPair> bodies)
+{
+    pairs_.clear();
     auto before = pairsBefore_.begin();
     for (const BodyPair& met : bodies) {
         const BodyRecord &a = state.bodies[met.a], &b = state.bodies[met.b];
@@ -91,204 +117,153 @@ void Contacts::find(State& state, const WorldSettings& settings, const std::vect
         if (!material.collides) continue;
         Pair pair{met.a, met.b};
         const double lengthA = a.fixed ? b.length : a.length, lengthB = b.fixed ? a.length : b.length;
-        pair.slop = static_cast<float>(kSlopPerLength * std::min(lengthA, lengthB));
+        const double length = std::min(lengthA, lengthB);
+        pair.slop = static_cast<float>(kSlopPerLength * length);
         pair.thickness = static_cast<float>(a.matter.thickness + b.matter.thickness);
         pair.friction = static_cast<float>(material.friction),
         pair.restitution = static_cast<float>(material.restitution);
         pair.resolve = settings.resolveCollisions && !a.sensor && !b.sensor;
-        pair.first = static_cast<Index>(touches_.size());
-        while (before != pairsBefore_.end() && std::tie(before->a, before->b) < std::tie(pair.a, pair.b)) ++before;
-        const bool known = before != pairsBefore_.end() && before->a == pair.a && before->b == pair.b;
-        before_ = known ? &*before : nullptr;
-        for (const Index body : {met.a, met.b}) skin(state, body);
-        if (met.a == met.b) {
-            meetItself(state, motions[met.a], pair, dt);
+        while (before != pairsBefore_.end() && comesBefore(*before, pair)) ++before;
+        const bool known = before != pairsBefore_.end() && !comesBefore(pair, *before);
+        const double reach = motions[met.a].range + motions[met.b].range, path = path_[met.a] + path_[met.b];
+        if (known && pair.isLike(*before) && path - before->seenAt + reach <= static_cast<double>(before->room)) {
+            pair = *before;
+            pair.kept = 1;
         } else {
-            meet(state, motions, pair, true, dt);
-            meet(state, motions, pair, false, dt);
+            pair.seenAt = path;
+            if (met.a != met.b && reach <= kSlowLengths * length)
+                pair.room = static_cast<float>(reach + kRoomLengths * length);
         }
-        pair.end = static_cast<Index>(touches_.size());
-        if (known) carryOver(state, *before, pair, first);
-        if (pair.end > pair.first) pairs_.push_back(pair);
+        if (known) ++before;
+        pairs_.push_back(pair);
     }
-    if (first)
-        for (Touch& touch : touches_) touch.stepImpulse = 0;
-    seat(state);
 }
 
-/// The walls of the body, eight in a block, and the corners of its border.
-void Contacts::skin(State& state, Index handle)
+void Contacts::survey(State& state, const std::vector<Motion>& motions, Pair& pair, double dt)
 {
-    if (skinned_[handle] != 0) return;
-    skinned_[handle] = 1;
-    const BodyRecord& body = state.bodies[handle];
-    Skin& skin = skins_[handle];
-    skin.first = static_cast<Index>(walls_.size());
-    skin.count = (body.walls.count + kWide - 1) / kWide;
-    if (body.walls.count == 0) return;
-    skin.origin = state.points.position[state.walls.first[body.walls.first]];
-    updateCorners(state, body);
-    walls_.resize(walls_.size() + skin.count);
-    const float nowhere = std::numeric_limits<float>::quiet_NaN();
-    for (Index k = 0; k < skin.count; ++k) {
-        WallBlock& block = walls_[skin.first + k];
-        block = WallBlock();
-        block.left = block.top = std::numeric_limits<float>::max();
-        block.right = block.bottom = std::numeric_limits<float>::lowest();
-        for (Index lane = 0; lane < kWide; ++lane) {
-            const Index i = kWide * k + lane, wall = body.walls.first + i;
-            if (i >= body.walls.count) {
-                block.x[lane] = block.y[lane] = 1e30F;
+    for (const Index body : {pair.a, pair.b}) skin(state, body);
+    if (pair.a == pair.b) {
+        meetItself(state, motions[pair.a], pair, dt);
+    } else {
+        meet(state, motions, pair, true, dt);
+        meet(state, motions, pair, false, dt);
+    }
+}
+
+/// Are the contacts that act in few blocks?
+bool Contacts::wellSeated() const
+{
+    std::size_t acting = 0, blocks = 0;
+    for (const ContactBlock& block : blocks_) {
+        if (!block.any) continue;
+        ++blocks;
+        for (Index lane = 0; lane < kWide; ++lane) acting += block.active[lane] != 0;
+    }
+    return static_cast<double>(blocks * kWide) <= kMostSpread * static_cast<double>(acting) + kLeastSpread;
+}
+
+/// The blocks as the touches' seats say.
+void Contacts::rebuild(const State& state)
+{
+    keep();
+    refill_ = false;
+    blocks_.clear();
+    unseated_ = false;
+    for (const Pair& pair : pairs_) {
+        for (Index i = pair.first; i < pair.end && pair.resolve != 0; ++i) {
+            const Touch& touch = touches_[i];
+            if (touch.seat == kNone) {
+                unseated_ = true;
                 continue;
             }
-            const Vec2 first = state.points.position[state.walls.first[wall]] - skin.origin;
-            const Vec2 second = state.points.position[state.walls.second[wall]] - skin.origin;
-            const auto x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
-            const float edgeX = static_cast<float>(second.x()) - x, edgeY = static_cast<float>(second.y()) - y;
-            const float squared = edgeX * edgeX + edgeY * edgeY;
-            const bool valid = squared > 1e-24F && state.walls.outward[wall] != 0;
-            const float side = valid ? static_cast<float>(state.walls.outward[wall]) / std::sqrt(squared) : nowhere;
-            block.x[lane] = x, block.y[lane] = y, block.edgeX[lane] = edgeX, block.edgeY[lane] = edgeY;
-            block.normalX[lane] = -edgeY * side, block.normalY[lane] = edgeX * side;
-            block.inverseSquare[lane] = valid ? 1 / squared : 0;
-            block.slope[lane] = edgeY != 0 ? edgeX / edgeY : 0;
-            block.left = std::min({block.left, x, x + edgeX}), block.right = std::max({block.right, x, x + edgeX});
-            block.top = std::min({block.top, y, y + edgeY}), block.bottom = std::max({block.bottom, y, y + edgeY});
+            if (touch.seat / kWide >= blocks_.size()) blocks_.resize(touch.seat / kWide + std::size_t{1});
+            fill(state, pair, touch);
         }
     }
 }
 
-/// The points of one body at the walls of the other.
-void Contacts::meet(State& state, const std::vector<Motion>& motions, const Pair& pair, bool aOnB, double dt)
+/// A lane that is free, in one of the last blocks in which none holds one of the touch's nodes; else in a new one.
+Index Contacts::seatAmong(const State& state, const Touch& touch)
 {
-    const Index from = aOnB ? pair.a : pair.b, onto = aOnB ? pair.b : pair.a;
-    const BodyRecord &a = state.bodies[from], &b = state.bodies[onto];
-    const Skin& skin = skins_[onto];
-    if (skin.count == 0) return;
-    const Motion &motionA = motions[from], &motionB = motions[onto];
-    near_.resize(std::max<std::size_t>(near_.size(), skin.count));
-    const double margin =
-        motionA.stray + motionB.stray + 4 * static_cast<double>(pair.slop) + static_cast<double>(pair.thickness);
-    const Box around = motionB.reach.inflated(motionA.range + static_cast<double>(pair.thickness));
-    for (Index p = a.points.first; p < a.points.end(); ++p) {
-        const Vec2& at = state.points.position[p];
-        if (!around.contains(at)) continue;
-        const Vec2 carried = motionB.velocity + motionB.omega * perpendicular(at - motionB.centre);
-        const double reach = (state.nodes.velocity[state.points.node[p]] - carried).norm() * dt + margin;
-        const Vec2 local = at - skin.origin;
-        // The second end of a thick wall is its neighbour's.
-        const double slide = pair.thickness > 0 ? reach - static_cast<double>(pair.thickness) : reach;
-        const NearQuery query{static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(reach),
-                              static_cast<float>(slide), static_cast<float>(kTouchDepth) * pair.slop};
-        const NearResult seen = kernels_->survey(&walls_[skin.first], skin.count, query, near_.data());
-        for (Index k = 0; k < skin.count; ++k)
-            for (unsigned rest = near_[k]; rest != 0; rest &= rest - 1)
-                add(state, pair, p, b.walls.first + kWide * k + static_cast<Index>(__builtin_ctz(rest)), false);
-        // On the border "inside" is a matter of rounding; the walls found in front of the point answer for it.
-        if (!seen.inside || seen.onSurface) continue;
-        const Index wall = wallToLeaveThrough(state, b, p, kNone);
-        if (wall != kNone) add(state, pair, p, wall, true);
-    }
-}
-
-/// The points of a body at its own walls: those of other pieces of it hold as those of other bodies; of its own, where
-/// it collides with itself, only walls that face the point: the skin of a smooth border overlaps its neighbours.
-void Contacts::meetItself(State& state, const Motion& motion, const Pair& pair, double dt)
-{
-    const BodyRecord& body = state.bodies[pair.a];
-    const Skin& skin = skins_[pair.a];
-    near_.resize(std::max<std::size_t>(near_.size(), skin.count));
-    const double behind = kTouchDepth * static_cast<double>(pair.slop);
-    const bool torn = body.pieceCount > 1;
-    const auto pieceOf = [&](Index p) { return torn ? body.pieces[p - body.points.first] : 0; };
-    for (Index p = body.points.first; p < body.points.end(); ++p) {
-        const Vec2& normal = state.points.normal[p];
-        if (normal.isZero() && !torn) continue;  // not on the border
-        const Vec2& at = state.points.position[p];
-        const Vec2& own = state.nodes.velocity[state.points.node[p]];
-        const double reach = (own - motion.velocity).norm() * dt + motion.stray + 4 * static_cast<double>(pair.slop) +
-                             static_cast<double>(pair.thickness);
-        const Vec2 local = at - skin.origin;
-        // Walls it has come through before hold it too; wide enough to see them.
-        const auto wide = static_cast<float>(reach);
-        const NearQuery query{static_cast<float>(local.x()), static_cast<float>(local.y()), wide, wide, wide};
-        kernels_->survey(&walls_[skin.first], skin.count, query, near_.data());
-        Index deepIn = kNone;  // wall of another piece it is behind
-        bool onSurface = false;
-        for (Index k = 0; k < skin.count; ++k) {
-            for (unsigned rest = near_[k]; rest != 0; rest &= rest - 1) {
-                const Index wall = body.walls.first + kWide * k + static_cast<Index>(__builtin_ctz(rest));
-                if (state.walls.first[wall] == p || state.walls.second[wall] == p) continue;
-                const View seen = view(state, wall, at);
-                if (!seen.valid) continue;
-                const bool other = pieceOf(p) != pieceOf(state.walls.first[wall]);
-                if (!other && (!body.matter.selfCollision || normal.isZero() || normal.dot(seen.normal) > -kFacing))
-                    continue;
-                const Touch* held = heldBefore(p, wall);
-                if (seen.height < -behind && other) deepIn = wall;
-                if (seen.height < -behind && (other || !(held && held->stepImpulse > 0))) continue;
-                onSurface |= other && seen.distance <= behind;
-                add(state, pair, p, wall, false);
+    constexpr std::size_t kTried = 24;
+    const auto point = static_cast<std::int32_t>(state.points.node[touch.point]);
+    const auto first = static_cast<std::int32_t>(state.points.node[state.walls.first[touch.wall]]);
+    const auto second = static_cast<std::int32_t>(state.points.node[state.walls.second[touch.wall]]);
+    const std::size_t oldest = blocks_.size() > kTried ? blocks_.size() - kTried : 0;
+    for (std::size_t k = blocks_.size(); k-- > oldest;) {
+        const ContactBlock& block = blocks_[k];
+        Index free = kNone;
+        bool held = false;
+        for (Index lane = 0; lane < kWide; ++lane) {
+            if (block.side[lane] == 0) {
+                free = std::min(free, lane);
+                continue;
             }
+            for (const std::int32_t node : {point, first, second})
+                held |= block.point[lane] == node || block.first[lane] == node || block.second[lane] == node;
         }
-        if (deepIn == kNone || onSurface || !insidePiece(state, body, pieceOf(state.walls.first[deepIn]), at)) continue;
-        const Index wall = wallToLeaveThrough(state, body, p, pieceOf(state.walls.first[deepIn]));
-        if (wall != kNone) add(state, pair, p, wall, true);
+        if (free != kNone && !held) return static_cast<Index>(k) * kWide + free;
     }
+    blocks_.emplace_back();
+    return (static_cast<Index>(blocks_.size()) - 1) * kWide;
 }
 
-void Contacts::add(const State& state, const Pair& pair, Index point, Index wall, bool inside)
+void Contacts::vacate(Touch& touch)
 {
-    // A point inside may be found twice at one wall: at its front, and to be pushed out; the latter counts.
-    if (inside) {
-        for (std::size_t i = touches_.size(); i > pair.first && touches_[i - 1].point == point; --i) {
-            if (touches_[i - 1].wall != wall) continue;
-            touches_[i - 1].inside = 1;
-            return;
-        }
-    }
-    Touch touch;
-    touch.point = point, touch.wall = wall, touch.inside = inside;
+    if (touch.seat == kNone) return;
+    ContactBlock& block = blocks_[touch.seat / kWide];
+    const Index lane = touch.seat % kWide;
+    block.side[lane] = 0;
+    block.inside[lane] = block.engaged[lane] = block.active[lane] = 0;
+    block.normalImpulse[lane] = block.tangentImpulse[lane] = block.stepImpulse[lane] = 0;
+    block.invPoint[lane] = block.invFirst[lane] = block.invSecond[lane] = 0;
     touch.seat = kNone;
-    if (!inside && !(pair.thickness > 0)) touch.insets = insetsAt(state, point, wall);
-    touches_.push_back(touch);
 }
 
-/// Near sharp ends of the wall, is the point rather its neighbour's? Then neither catches what slides over the corner.
-std::uint8_t Contacts::insetsAt(const State& state, Index point, Index wall) const
+std::size_t Contacts::live() const
 {
-    const Walls& walls = state.walls;
-    const auto yields = [&](WallEnd end, Index neighbour) {
-        if (end != WallEnd::Sharp) return false;
-        const View seen = view(state, neighbour, state.points.position[point]);
-        return seen.valid && state.points.normal[point].dot(seen.normal) <= kLean;
-    };
-    return static_cast<std::uint8_t>((yields(walls.firstEnd[wall], walls.previous[wall]) ? 1 : 0) |
-                                     (yields(walls.secondEnd[wall], walls.next[wall]) ? 2 : 0));
+    std::size_t count = 0;
+    for (const Pair& pair : pairs_) count += pair.end - pair.first;
+    return count;
 }
 
-Index Contacts::wallToLeaveThrough(const State& state, const BodyRecord& body, Index point, Index piece) const
+/// Leaves out the touches of surveys that are over.
+void Contacts::compact()
 {
-    const Vec2 &at = state.points.position[point], &normal = state.points.normal[point];
-    Index best = kNone;
-    double score = std::numeric_limits<double>::infinity();
-    for (Index wall = body.walls.first; wall < body.walls.end(); ++wall) {
-        if (piece != kNone && body.pieces[state.walls.first[wall] - body.points.first] != piece) continue;
-        const View seen = view(state, wall, at);
-        if (!seen.valid || seen.height >= 0) continue;
-        const Touch* held = heldBefore(point, wall);
-        const double own = seen.distance * (held && held->stepImpulse > 0 ? kHeldBonus : 1) *
-                           (normal.dot(seen.normal) <= 0 ? 1 : kFoldedPenalty);
-        if (own < score) score = own, best = wall;
+    compacted_.clear();
+    for (Pair& pair : pairs_) {
+        const auto first = static_cast<Index>(compacted_.size());
+        compacted_.insert(compacted_.end(), touches_.begin() + pair.first, touches_.begin() + pair.end);
+        pair.first = first, pair.end = static_cast<Index>(compacted_.size());
     }
-    return best;
+    touches_.swap(compacted_);
+}
+
+void Contacts::travel(const State& state, std::span<const Vec2> from)
+{
+    if (from.size() != state.nodes.size()) return;
+    path_.resize(state.bodies.size(), 0.0);
+    for (Index handle = 0; handle < state.bodies.size(); ++handle) {
+        const BodyRecord& body = state.bodies[handle];
+        if (!body.wide || body.fixed) continue;
+        double most = 0;
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+            most = std::max(most, (state.nodes.position[n] - from[n]).squaredNorm());
+        path_[handle] += std::sqrt(most);
+    }
+}
+
+void Contacts::carry(Index body, double way)
+{
+    if (path_.size() <= body) path_.resize(body + std::size_t{1}, 0.0);
+    path_[body] += way;
 }
 
 const Contacts::Touch* Contacts::heldBefore(Index point, Index wall) const
 {
     if (!before_) return nullptr;
     for (Index i = before_->first; i < before_->end; ++i)
-        if (touchesBefore_[i].point == point && touchesBefore_[i].wall == wall) return &touchesBefore_[i];
+        if (touches_[i].point == point && touches_[i].wall == wall) return &touches_[i];
     return nullptr;
 }
 
@@ -301,19 +276,20 @@ void Contacts::carryOver(const State& state, const Pair& before, const Pair& now
         return state.bodies[now.a].points.end() > point && point >= state.bodies[now.a].points.first;
     };
     const auto comesBefore = [&](Index p, Index q) { return isA(p) != isA(q) ? isA(p) : p < q; };
-    const auto over = [&](const Touch& touch) {
+    const auto over = [&](Touch& touch) {
         if (!first && touch.stepImpulse > 0) ended_.push_back(asContact(state, before, touch));
+        vacate(touch);
     };
     for (Index i = now.first; i < now.end;) {
         const Index point = touches_[i].point;
-        while (from < before.end && comesBefore(touchesBefore_[from].point, point)) over(touchesBefore_[from++]);
+        while (from < before.end && comesBefore(touches_[from].point, point)) over(touches_[from++]);
         Index until = from;
-        while (until < before.end && touchesBefore_[until].point == point) ++until;
+        while (until < before.end && touches_[until].point == point) ++until;
         for (; i < now.end && touches_[i].point == point; ++i) {
             Touch& touch = touches_[i];
             Touch* source = nullptr;
             for (Index k = from; k < until; ++k) {
-                Touch& old = touchesBefore_[k];
+                Touch& old = touches_[k];
                 if (old.wall == touch.wall) {
                     source = &old;
                     break;
@@ -327,19 +303,21 @@ void Contacts::carryOver(const State& state, const Pair& before, const Pair& now
             if (!source) continue;
             touch.normalImpulse = source->normalImpulse, touch.tangentImpulse = source->tangentImpulse;
             if (source->wall != touch.wall) continue;
+            touch.seat = std::exchange(source->seat, kNone);
             touch.stepImpulse = source->stepImpulse;
             touch.engaged = source->engaged & source->active, touch.active = source->active;
             source->stepImpulse = 0;
         }
-        for (; from < until; ++from) over(touchesBefore_[from]);
+        for (; from < until; ++from) over(touches_[from]);
     }
-    for (; from < before.end; ++from) over(touchesBefore_[from]);
+    for (; from < before.end; ++from) over(touches_[from]);
 }
 
 /// Gives each touch a lane in a block: first those that acted, so that their blocks are full.
 void Contacts::seat(const State& state)
 {
     blocks_.clear();
+    unseated_ = false;
     for (const bool acted : {true, false}) {
         seated_.assign(state.nodes.size(), 0);
         filled_.fill(0);
@@ -347,7 +325,10 @@ void Contacts::seat(const State& state)
             if (pair.resolve == 0) continue;
             for (Index i = pair.first; i < pair.end; ++i) {
                 Touch& touch = touches_[i];
-                if ((touch.active != 0 || touch.inside != 0) == acted) fill(state, pair, touch);
+                if ((touch.active != 0 || touch.inside != 0) != acted) continue;
+                touch.seat = freeSeat(state.points.node[touch.point], state.points.node[state.walls.first[touch.wall]],
+                                      state.points.node[state.walls.second[touch.wall]]);
+                fill(state, pair, touch);
             }
         }
     }
@@ -380,13 +361,13 @@ Index Contacts::freeSeat(Index point, Index first, Index second)
     return seat;
 }
 
-void Contacts::fill(const State& state, const Pair& pair, Touch& touch)
+/// Into the lane of its seat.
+void Contacts::fill(const State& state, const Pair& pair, const Touch& touch)
 {
     const Nodes& nodes = state.nodes;
     const Index point = state.points.node[touch.point];
     const Index first = state.points.node[state.walls.first[touch.wall]];
     const Index second = state.points.node[state.walls.second[touch.wall]];
-    touch.seat = freeSeat(point, first, second);
     ContactBlock& block = blocks_[touch.seat / kWide];
     const Index lane = touch.seat % kWide;
     block.point[lane] = static_cast<std::int32_t>(point);
@@ -394,12 +375,8 @@ void Contacts::fill(const State& state, const Pair& pair, Touch& touch)
     block.side[lane] = static_cast<float>(state.walls.outward[touch.wall]);
     block.thickness[lane] = pair.thickness, block.slop[lane] = pair.slop;
     block.friction[lane] = pair.friction, block.restitution[lane] = pair.restitution;
-    const double length =
-        (state.points.position[state.walls.second[touch.wall]] - state.points.position[state.walls.first[touch.wall]])
-            .norm();
     const auto reach = [&](bool inset) {
-        const double slop = static_cast<double>(pair.slop);
-        return static_cast<float>(inset ? -std::min(kSharpInset * slop, 0.25 * length) : kBluntOverhang * slop);
+        return inset ? -touch.inset : static_cast<float>(kBluntOverhang * static_cast<double>(pair.slop));
     };
     block.firstReach[lane] = reach((touch.insets & 1) != 0), block.secondReach[lane] = reach((touch.insets & 2) != 0);
     block.invPoint[lane] = static_cast<float>(nodes.invMass[point]);
@@ -410,12 +387,16 @@ void Contacts::fill(const State& state, const Pair& pair, Touch& touch)
     block.still[lane] = still ? -1 : 0;
     block.normalImpulse[lane] = touch.normalImpulse, block.tangentImpulse[lane] = touch.tangentImpulse;
     block.stepImpulse[lane] = touch.stepImpulse;
+    block.active[lane] = touch.active != 0 ? -1 : 0;
+    block.along[lane] = touch.along;
+    block.any |= touch.active != 0;
 }
 
 void Contacts::push(State& state, double h, double gravity)
 {
     if (blocks_.empty()) return;
     const double hertz = std::min(kHertz, kHertzPerSubstepRate / h);
+    kept_ = false;
     step_ = {static_cast<float>(h), static_cast<float>(1 / h), static_cast<float>(4 * gravity * h), softness(hertz, h),
              softness(2 * hertz, h)};
     const Particles particles = particlesOf(state);
@@ -436,8 +417,17 @@ void Contacts::relax(State& state)
 
 void Contacts::keep()
 {
-    for (Touch& touch : touches_) {
-        if (touch.seat == kNone) continue;
+    if (kept_) return;
+    kept_ = true;
+    for (const Pair& pair : pairs_) keep(pair);
+}
+
+/// Takes the state of a pair's touches out of the blocks.
+void Contacts::keep(const Pair& pair)
+{
+    for (Index i = pair.first; i < pair.end; ++i) {
+        Touch& touch = touches_[i];
+        if (touch.seat == kNone || touch.seat / kWide >= blocks_.size()) continue;
         const ContactBlock& block = blocks_[touch.seat / kWide];
         const Index lane = touch.seat % kWide;
         touch.active = block.active[lane] != 0 && block.any;
@@ -451,13 +441,20 @@ void Contacts::keep()
 void Contacts::scale(double ratio)
 {
     const auto by = static_cast<float>(ratio);
+    keep();
     for (Touch& touch : touches_) touch.normalImpulse *= by, touch.tangentImpulse *= by;
+    refill_ = true;
 }
 
-void Contacts::clear() { pairs_.clear(), touches_.clear(), ended_.clear(), blocks_.clear(); }
+void Contacts::clear()
+{
+    pairs_.clear(), touches_.clear(), ended_.clear(), blocks_.clear();
+    kept_ = true;
+}
 
 void Contacts::forget(const State& state, const std::function<bool(Index)>& body)
 {
+    keep();
     std::vector<Touch> kept;
     for (Pair& pair : pairs_) {
         const Range& points = state.bodies[pair.a].points;
@@ -468,14 +465,10 @@ void Contacts::forget(const State& state, const std::function<bool(Index)>& body
             if (!body(aOnB ? pair.b : pair.a)) kept.push_back(touch);
         }
         pair.first = first, pair.end = static_cast<Index>(kept.size());
+        pair.room = 0;
     }
     touches_.swap(kept);
     ended_.clear();
-    restored();
-}
-
-void Contacts::restored()
-{
     blocks_.clear();
     for (Touch& touch : touches_) touch.seat = kNone;
 }
@@ -512,10 +505,10 @@ ContactPoint Contacts::asContact(const State& state, const Pair& pair, const Tou
 std::size_t Contacts::bytes() const
 {
     return (pairs_.capacity() + pairsBefore_.capacity()) * sizeof(Pair) +
-           (touches_.capacity() + touchesBefore_.capacity()) * sizeof(Touch) +
-           blocks_.capacity() * sizeof(ContactBlock) + walls_.capacity() * sizeof(WallBlock) +
-           seated_.capacity() * sizeof(std::uint64_t) + skins_.capacity() * sizeof(Skin) +
-           ended_.capacity() * sizeof(ContactPoint);
+           (touches_.capacity() + compacted_.capacity()) * sizeof(Touch) + blocks_.capacity() * sizeof(ContactBlock) +
+           walls_.capacity() * sizeof(WallBlock) + seated_.capacity() * sizeof(std::uint64_t) +
+           skins_.capacity() * sizeof(Skin) + ended_.capacity() * sizeof(ContactPoint) +
+           path_.capacity() * sizeof(double);
 }
 
 }  // namespace jet::physics::soft

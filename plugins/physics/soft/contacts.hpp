@@ -3,7 +3,11 @@
 // bodies, goes by contact_finder.hpp and contact_solver.hpp; the rules are the same: a candidate for each wall a point
 // may reach in the step, taken up once it really comes to it; "Soft Step" over the substeps, with warm starting.
 //
-// Order of calls: find -> each substep push and relax -> keep, once the step is over or before the next find.
+// Order of calls: find -> each substep push and relax; travel each time before positions are predicted anew, and once
+// the step is over; keep before what is here is read or saved.
+//
+// A pair of slow bodies is surveyed further than they come in the step, and looked at again only once they have used up
+// that room: what rests costs nothing but solving. How far a body went is summed over the steps (path_).
 //
 // Blocks of those that touched before come first and are dense; the others are mostly idle. Colouring by what acts in
 // each substep was the alternative: it costs more than the lanes it fills.
@@ -32,15 +36,19 @@ public:
               bool first);
     void push(State&, double h, double gravity);
     void relax(State&);
-    /// Takes the impulses out of the blocks.
+    /// Takes the state of the contacts out of the blocks, where it is while they are solved.
     void keep();
     /// Warm-start impulses are of one substep: for others of another length.
     void scale(double ratio);
     void clear();
+    /// How far the bodies' particles went from where they were. Between steps: `carry`.
+    void travel(const State&, std::span<const Vec2> from);
+    void carry(Index body, double way);
+    /// Masses have changed.
+    void outdate() { refill_ = true; }
     /// Drops what touches walls of such bodies: the walls have got other numbers.
     void forget(const State&, const std::function<bool(Index)>& body);
 
-    std::size_t count() const { return touches_.size(); }
     /// Calls visit(ContactPoint) for each candidate, with what a report needs.
     template <class Visit>
     void each(const State& state, Visit&& visit) const
@@ -57,40 +65,67 @@ public:
         with.list(pairs_, [&](Pair& pair) { with(pair); });
         with.list(touches_, [&](Touch& touch) {
             with(touch.point), with(touch.wall), with(touch.inside), with(touch.engaged), with(touch.active);
-            with(touch.insets), with(touch.along), with(touch.normalImpulse), with(touch.tangentImpulse);
+            with(touch.insets), with(touch.inset), with(touch.seat), with(touch.along), with(touch.normalImpulse),
+                with(touch.tangentImpulse);
             with(touch.stepImpulse);
         });
         with.list(ended_, [&](ContactPoint& c) {
             with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.slop), with(c.thickness);
             with(c.inside), with(c.engaged), with(c.stepImpulse);
         });
+        with.list(path_, [&](double& path) { with(path); });
     }
     /// Does what was read back fit the state?
     bool fits(const State&) const;
     /// After reading back: there are no blocks.
-    void restored();
+    void restored()
+    {
+        blocks_.clear();
+        kept_ = true;
+    }
 
 private:
     struct Touch {
         Index point = 0, wall = 0;
-        Index seat = 0;                                                // block * 8 + lane; kNone: not solved
+        Index seat = kNone;                                            // block * 8 + lane; kNone: not solved
         std::uint8_t inside = 0, engaged = 0, active = 0, insets = 0;  // insets: 1 first end, 2 second
+        float inset = 0;                                               // units the wall ends before such an end
         float along = 0, normalImpulse = 0, tangentImpulse = 0, stepImpulse = 0;
     };
     struct Pair {
         Index a = 0, b = 0;
         Index first = 0, end = 0;  // touches
         float slop = 0, thickness = 0, friction = 0, restitution = 0;
-        std::uint32_t resolve = 1;
+        std::uint16_t resolve = 1, kept = 0;  // kept: its touches are those of the find before
+        float room = 0;     // units both may come nearer, since it was surveyed, before that must be done again
+        double seenAt = 0;  // their paths then, units
+
+        bool isLike(const Pair& other) const
+        {
+            return slop == other.slop && thickness == other.thickness && friction == other.friction &&
+                   restitution == other.restitution && resolve == other.resolve;
+        }
     };
+    static bool comesBefore(const Pair& p, const Pair& q) { return p.a < q.a || (p.a == q.a && p.b < q.b); }
     /// The walls of a body for the survey, as of this find.
     struct Skin {
         Vec2 origin;
         Index first = 0, count = 0;  // blocks
     };
 
+    void look(State&, const std::vector<Motion>&, double dt, bool first);
+    void plan(const State&, const WorldSettings&, const std::vector<Motion>&, std::span<const BodyPair>);
+    void survey(State&, const std::vector<Motion>&, Pair&, double dt);
+    bool wellSeated() const;
+    void rebuild(const State&);
+    Index seatAmong(const State&, const Touch&);
+    void vacate(Touch&);
+    void keep(const Pair&);
+    std::size_t live() const;
+    void compact();
     void skin(State&, Index body);
-    void meet(State&, const std::vector<Motion>&, const Pair&, bool aOnB, double dt);
+    void corners(State&, Index body);
+    void meet(State&, const std::vector<Motion>&, Pair&, bool aOnB, double dt);
     void meetItself(State&, const Motion&, const Pair&, double dt);
     void add(const State&, const Pair&, Index point, Index wall, bool inside);
     std::uint8_t insetsAt(const State&, Index point, Index wall) const;
@@ -99,22 +134,27 @@ private:
     const Touch* heldBefore(Index point, Index wall) const;
     void seat(const State&);
     Index freeSeat(Index, Index, Index);
-    void fill(const State&, const Pair&, Touch&);
+    void fill(const State&, const Pair&, const Touch&);
     ContactPoint asContact(const State&, const Pair&, const Touch&) const;
 
     const ContactKernels* kernels_ = &sse2::contacts;
     std::vector<Pair> pairs_, pairsBefore_;
-    std::vector<Touch> touches_, touchesBefore_;
+    std::vector<Touch> touches_;       // ranges of the pairs; between them, what is over
     std::vector<ContactPoint> ended_;  // pushed in this step, but are over
     std::vector<ContactBlock> blocks_;
+    bool refill_ = false;    // do the blocks hold what was so before?
+    bool kept_ = true;       // do the touches hold what the blocks do?
+    bool unseated_ = false;  // have some touches no seats?
     ContactStep step_;
+    std::vector<double> path_;  // [bodies] units their fastest particles went
 
     // Scratch.
-    const Pair* before_ = nullptr;  // of the pair at work, in the last find
-    std::vector<Skin> skins_;       // [bodies]
-    std::vector<std::uint8_t> skinned_;
+    const Pair* before_ = nullptr;       // of the pair at work, in the last find
+    std::vector<Skin> skins_;            // [bodies]
+    std::vector<std::uint8_t> skinned_;  // [bodies] what is as of this find
     std::vector<WallBlock> walls_;
     std::vector<std::uint8_t> near_;
+    std::vector<Touch> compacted_;
     std::vector<std::uint64_t> seated_;  // [nodes] open blocks that hold it
     std::array<Index, 64> open_{};
     std::array<std::uint8_t, 64> filled_{};

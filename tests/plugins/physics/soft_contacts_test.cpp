@@ -87,6 +87,87 @@ TEST(SoftContacts, APileComesToRestWithoutOverlapOrInversion)
     }
 }
 
+/// Three balls on each other, at rest: what their contacts are is not looked at again.
+std::unique_ptr<PhysicsWorld> restingColumn(double thickness = 1)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 98};
+    auto world = JetPhysics().createWorld(settings);
+    for (int i = 0; i < 3; ++i) {
+        SoftBodyDef ball = defaultBall({0, -25 - 45.0 * i}, 20, 40);
+        ball.matter.thickness = thickness;
+        world->addSoftBody(ball);
+    }
+    world->addRigidBody(ground(0));
+    world->addRigidBody(fixed({boxRing({-75, -100}, 100, 400), boxRing({75, -100}, 100, 400)}));
+    run(*world, 20);
+    return world;
+}
+
+double deepest(const PhysicsWorld& world)
+{
+    double depth = 0;
+    for (const Contact& contact : world.contacts()) depth = std::max(depth, contact.penetration);
+    return depth;
+}
+
+TEST(SoftContacts, ABodyPutBesideARestingOneIsFeltAtOnce)
+{
+    auto world = restingColumn();
+    const Vec2 middle = world->bodies().position[1], low = world->bodies().position[0];
+    ASSERT_TRUE(world->touching(0, 1));
+    world->setPosition(1, middle - Vec2(0, 200));
+    world->step(kStep);
+    EXPECT_FALSE(world->touching(0, 1));
+    world->setPosition(1, middle);
+    world->step(kStep);
+    EXPECT_TRUE(world->touching(0, 1));
+    run(*world, 5);
+    EXPECT_LT(world->bodies().position[1].y(), low.y() - 25);
+}
+
+TEST(SoftContacts, ARestingBodyThatIsHitIsNotPassed)
+{
+    for (const double speed : {20.0, 300.0, 3000.0}) {
+        auto world = restingColumn();
+        world->setVelocity(2, {0, speed});
+        for (int i = 0; i < 300; ++i) {
+            world->step(kStep);
+            ASSERT_GT(world->bodies().position[0].y() - world->bodies().position[1].y(), 0) << speed << ", step " << i;
+            ASSERT_GT(world->bodies().position[1].y() - world->bodies().position[2].y(), 0) << speed << ", step " << i;
+        }
+        run(*world, 10);
+        EXPECT_LT(deepest(*world), 1);
+    }
+}
+
+TEST(SoftContacts, AThicknessGivenWhileBodiesRestIsFelt)
+{
+    auto world = restingColumn();
+    const SoftBodyDef ball = defaultBall({0, 0}, 20, 40);
+    ASSERT_LT(distanceBetween(*world, 0, 1, ball), 2.5);
+    for (BodyHandle body = 0; body < 3; ++body) {
+        SoftMatter matter;
+        matter.thickness = 3;
+        world->setSoftMatter(body, matter);
+    }
+    run(*world, 5);
+    EXPECT_GT(distanceBetween(*world, 0, 1, ball), 5.5);
+    EXPECT_GT(distanceBetween(*world, 1, 2, ball), 5.5);
+}
+
+TEST(SoftContacts, AMassGivenWhileBodiesRestIsFelt)
+{
+    const auto heightOfTheLowest = [](double factor) {
+        auto world = restingColumn();
+        world->setMass(2, factor * defaultBall({0, 0}, 20, 40).masses[0] * 100);
+        run(*world, 10);
+        const Box bounds = world->bodies().bounds[0];
+        return bounds.size().y();
+    };
+    EXPECT_LT(heightOfTheLowest(4), heightOfTheLowest(0.25) - 0.2);
+}
+
 TEST(SoftContacts, AHitKeepsMomentumAndAngularMomentum)
 {
     auto world = makeWorld({0, 0}, 0.4, 0.5);
