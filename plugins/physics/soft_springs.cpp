@@ -81,6 +81,19 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
     for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
 }
 
+void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, const Mesh& mesh) const
+{
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+        if (a_[i] == b_[i]) continue;
+        const auto act = [&](Index node, Index other) {
+            const double part = bounds.part(node, other) * state.nodes.invMass[node];
+            bounds.add(node, stiffnessOf(mesh, i) * part);
+            bounds.addDamping(node, dampingOf(mesh, i) * part);
+        };
+        act(a_[i], b_[i]), act(b_[i], a_[i]);
+    }
+}
+
 /// Some steps of the power method, from all weights 1; takes those with the lowest bound.
 void SoftSprings::weigh(StiffnessBounds& bounds, const State& state, const Mesh& mesh)
 {
@@ -168,19 +181,17 @@ void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, st
 }
 
 /// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
+/// Weights serve bodies whose springs pull in many directions and are taken as they are: to a lone spring the bound
+/// with weights is exact, and one softened to it would ring on.
 void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
 {
     for (const Mesh& mesh : meshes_) {
-        if (loose && angular_.empty()) weigh(bounds, state, mesh);
-        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
-            if (a_[i] == b_[i]) continue;
-            const auto act = [&](Index node, Index other) {
-                const double part = bounds.part(node, other) * state.nodes.invMass[node];
-                bounds.add(node, stiffnessOf(mesh, i) * part);
-                bounds.addDamping(node, dampingOf(mesh, i) * part);
-            };
-            act(a_[i], b_[i]), act(b_[i], a_[i]);
-        }
+        const bool weighed = loose && angular_.empty() && isLarge(mesh.nodes);
+        if (weighed) weigh(bounds, state, mesh);
+        addTo(bounds, state, mesh);
+        if (!weighed || bounds.stableRate(mesh.nodes) <= kHighestRate) continue;
+        bounds.reset(mesh.nodes);
+        addTo(bounds, state, mesh);
     }
     for (const Angular& spring : angular_) {
         const double rate = spring.ks * spring.restCompliance;

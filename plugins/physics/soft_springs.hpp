@@ -116,6 +116,7 @@ private:
         return (mesh.uniform ? mesh.tearRatio : tearRatio(i)) * (drawn_.empty() ? rest_[i] : drawn_[i]);
     }
     double tearRatio(Index i) const { return tear_.empty() ? 0 : tear_[i]; }
+    void addTo(StiffnessBounds&, const State&, const Mesh&) const;
     void weigh(StiffnessBounds&, const State&, const Mesh&);
     void arrange(const State&);
     void watchTears(soft::Batch&);

@@ -38,6 +38,11 @@ public:
         damping_.assign(nodes, 0.0);
         weight_.assign(nodes, 1.0F);
     }
+    /// Nodes to which nothing has been added.
+    void reset(Range nodes)
+    {
+        for (Index n = nodes.first; n < nodes.end(); ++n) elastic_[n] = damping_[n] = 0, weight_[n] = 1;
+    }
     void weigh(Index node, float weight) { weight_[node] = weight; }
     /// (w_a + w_b) / (2 w_a)
     double part(Index a, Index b) const
@@ -84,7 +89,8 @@ private:
 /// omega h up to which springs swing in time: 0.5, 1 % of the frequency. In large bodies this is for their slower
 /// motions alone: the fastest, of a wave length of two springs, may be late by 5 %, and the bound for it is a loose
 /// one.
-inline double phaseOf(const BodyRecord& body) { return body.nodes.count > 16 ? 1.2 : 0.5; }
+inline bool isLarge(Range nodes) { return nodes.count > 16; }
+inline double phaseOf(const BodyRecord& body) { return isLarge(body.nodes) ? 1.2 : 0.5; }
 
 inline constexpr double kContactRate = 480;       // substeps a second, at least
 inline constexpr double kLargeContactRate = 360;  // in worlds of many particles: deeper overlaps, a quarter faster
