@@ -17,7 +17,7 @@ from xml.sax.saxutils import escape
 HERE = Path(__file__).resolve().parent
 JET = sys.argv[1] if len(sys.argv) > 1 else HERE.parent.parent / "build/release/bin/jet"
 BOTH = ["jet-physics", "physics-box2d"]
-BOX2D = BOTH[1:]  # what JET's own engine does with shapes, but not yet with drawn outlines
+JET_ALONE = BOTH[:1]  # Box2D has no soft bodies and no fields
 GROUND, STEEL, WOOD, RED, BLUE, GREEN, GOLD, GREY = (
     "#8a8f98", "#5b6b7f", "#c08a4e", "#d8433b", "#3b7dd8", "#4aa564", "#e0a92e", "#b8bcc4")
 
@@ -179,7 +179,7 @@ def joints():
         {"item": "Bob", "distance": [60, 90], "from": [58, 62]},
         {"item": "Slider", "y": [150, 215]}, {"item": "Sign", "y": [118, 123], "angle": [-0.05, 0.05]},
         {"item": "Heavy", "y": [255, 285]}, {"item": "Light", "y": [115, 145]},
-        {"item": "Lantern", "distance": [570, 32], "from": [60, 122]}], BOX2D, picture=40)
+        {"item": "Lantern", "distance": [570, 32], "from": [60, 122]}], picture=40)
 
 
 def motors():
@@ -193,7 +193,7 @@ def motors():
     s.joint("Drive", line((440, 304), (320, 280), (310, 280)), "prismatic", axis=(1, 0), limited=True, lower=0, upper=220,
             driven=True, motor_speed=80, max_force=1e5)
     s.ground()
-    write("motors", "Motors", s, 240, [{"item": "Mill", "omega": [3.9, 4.1]}, {"item": "Carriage", "x": [530, 545]}], BOX2D, picture=100)
+    write("motors", "Motors", s, 240, [{"item": "Mill", "omega": [3.9, 4.1]}, {"item": "Carriage", "x": [530, 545]}], picture=100)
 
 
 def platform():
@@ -203,7 +203,7 @@ def platform():
     s.rigid("Jumper", circle(280, 300, 12), RED, velocity=(0, -170))
     s.rigid("Faller", rectangle(360, 60, 22, 22), GOLD)
     write("platform", "One-sided platform", s, 360,
-          [{"item": "Jumper", "y": [182, 186]}, {"item": "Faller", "y": [183, 187]}], BOX2D, picture=55)
+          [{"item": "Jumper", "y": [182, 186]}, {"item": "Faller", "y": [183, 187]}], picture=55)
 
 
 def bullets():
@@ -235,7 +235,7 @@ JetSystem.addEventListener("onStep", function () {
     }
 });
 """)
-    write("car", "Wheel car", s, 720, [{"output": "finished"}, {"item": "Chassis", "x": [540, 1e9]}], BOX2D, picture=200)
+    write("car", "Wheel car", s, 720, [{"output": "finished"}, {"item": "Chassis", "x": [540, 1e9]}], picture=200)
 
 
 def soft_balls():
@@ -244,7 +244,7 @@ def soft_balls():
     for i in range(9):
         s.soft(f"Ball {i + 1}", circle(235 + 85 * (i % 3), 285 - 75 * (i // 3), 32, 3), [RED, BLUE, GOLD][i % 3], mass=1, ks=60,
                kd=0.6)
-    write("soft-balls", "Soft balls", s, 480, [{"count": "Ball *", "inside": [185, 60, 455, 325], "is": 9}], ["jet-physics"])
+    write("soft-balls", "Soft balls", s, 480, [{"count": "Ball *", "inside": [185, 60, 455, 325], "is": 9}], JET_ALONE)
 
 
 def gas():
@@ -254,7 +254,7 @@ def gas():
         s.soft(f"{name} tyre", circle(x, 270, 48, 5), [GREY, RED][pressure > 0], mass=1, ks=120, kd=1, pressure=pressure,
                axis_aligned=False, cross=False)
         s.rigid(f"{name} load", rectangle(x, 205, 90, 14), STEEL, 4)
-    write("gas", "Gas pressure", s, 600, [{"item": "Full load", "above": "Empty load", "by": 4}], ["jet-physics"])
+    write("gas", "Gas pressure", s, 600, [{"item": "Full load", "above": "Empty load", "by": 4}], JET_ALONE)
 
 
 def plastic():
@@ -273,7 +273,7 @@ JetSystem.addEventListener("onStep", function () {
     });
 });
 """)
-    write("plastic", "Plastic bodies", s, 600, [{"item": "Rubber", "taller": "Clay", "by": 3}], ["jet-physics"])
+    write("plastic", "Plastic bodies", s, 600, [{"item": "Rubber", "taller": "Clay", "by": 3}], JET_ALONE)
 
 
 def fields():
@@ -286,7 +286,7 @@ def fields():
     s.field("Well", circle(540, 90, 80), "radial", strength=-160)
     s.rigid("Moon", circle(500, 60, 8), GOLD, gravity_scale=0)
     write("fields", "Force fields", s, 300, [{"item": "Leaf", "x": [130, 400]}, {"item": "Raft", "y": [205, 250]},
-                                             {"item": "Moon", "distance": [540, 90], "from": [0, 60]}], ["jet-physics"])
+                                             {"item": "Moon", "distance": [540, 90], "from": [0, 60]}], JET_ALONE)
 
 
 def tearing():
@@ -303,7 +303,7 @@ def tearing():
     s.rigid("Light ball", circle(320, 40, 14), GOLD, 1)
     s.rigid("Heavy ball", circle(320, 160, 14), RED, 12)
     write("tearing", "Tearing", s, 420, [{"item": "Heavy ball", "y": [300, 1e9]}, {"item": "Light ball", "y": [0, 185]}],
-          ["jet-physics"], picture=75)
+          JET_ALONE, picture=75)
 
 
 def shape():
@@ -321,10 +321,59 @@ JetSystem.addEventListener("onStep", function () {
     if (++steps === 60) ItemUtils.getItemByName("Hammer", ItemUtils.getTopGroup(script)).body.setVelocity(400, -300);
 });
 """)
-    write("shape", "Shape memory", s, 600, [{"item": "Star", "width": [108, 118], "height": [100, 118]}], ["jet-physics"], picture=40)
+    write("shape", "Shape memory", s, 600, [{"item": "Star", "width": [108, 118], "height": [100, 118]}], JET_ALONE, picture=40)
 
 
-DEMOS = {f.__name__: f for f in (stack, joints, motors, platform, bullets, car, soft_balls, gas, plastic, fields, tearing, shape)}
+def breaking():
+    s = Scene()
+    s.fixed("Left bank", rectangle(60, 250, 120, 220))
+    s.fixed("Right bank", rectangle(580, 250, 120, 220))
+    for k in range(10):
+        s.rigid(f"Plank {k + 1}", rectangle(140 + 40 * k, 146, 38, 8), WOOD, 1)
+    for k in range(11):
+        x = 120 + 40 * k
+        left, right = x - (8 if k > 0 else 4), x + (8 if k < 10 else 4)
+        s.joint(f"Hinge {k + 1}", line((left, 146), (x, 146), (right, 146)), "revolute", break_force=30000)
+    s.rigid("Light ball", circle(240, 110, 10), GOLD, 1)
+    s.rigid("Heavy ball", circle(400, 20, 18), RED, 60)
+    write("breaking", "Breaking joints", s, 360, [{"item": "Heavy ball", "y": [300, 1e9]}], picture=110)
+
+
+def sensors():
+    s = Scene()
+    s.ground()
+    s.fixed("Ramp", polygon([(0, 120), (300, 220), (300, 232), (0, 132)]), STEEL)
+    s.fixed("Gate", rectangle(400, 260, 40, 120), GREEN, sensor=True)
+    for k in range(4):
+        s.rigid(f"Ball {k + 1}", circle(30 + 45 * k, 110 + 15 * k - 6, 12), [RED, GOLD, BLUE, STEEL][k])
+    s.script("Counter", """// Counts who comes through; a sensor is felt and does not hold.
+var group = ItemUtils.getTopGroup(script), gate = ItemUtils.getItemByName("Gate", group), seen = {}, count = 0;
+JetSystem.addEventListener("onStep", function () {
+    for (var i = 1; i <= 4; ++i) {
+        var ball = ItemUtils.getItemByName("Ball " + i, group);
+        if (!seen[i] && ctx.colTab[ball.body.cti][gate.body.cti]) {
+            seen[i] = true;
+            CC.GUIC.printlnToOutput("through: " + ++count);
+        }
+    }
+});
+""")
+    write("sensors", "Sensors", s, 600, [{"output": "through: 4"}], picture=150)
+
+
+def soft_rigid():
+    s = Scene()
+    s.fixed("Frame", polygon([(120, 200), (134, 200), (134, 316), (506, 316), (506, 200), (520, 200), (520, 330), (120, 330)]), STEEL)
+    s.soft("Mattress", rectangle(320, 280, 360, 66), BLUE, mass=3, ks=120, kd=1.5)
+    for k, (x, size, mass) in enumerate(((200, 40, 1), (320, 40, 3), (440, 40, 9))):
+        s.rigid(f"Box {k + 1}", rectangle(x, 200, size, size), WOOD, mass)
+    write("soft-rigid", "Rigid on soft", s, 600, [
+        {"item": "Box 1", "above": "Box 2", "by": 1}, {"item": "Box 2", "above": "Box 3", "by": 1},
+        {"count": "Box *", "inside": [134, 150, 506, 316], "is": 3}], JET_ALONE, picture=300)
+
+
+DEMOS = {f.__name__: f for f in (stack, joints, motors, platform, bullets, car, soft_balls, gas, plastic, fields, tearing, shape,
+                                breaking, sensors, soft_rigid)}
 
 if __name__ == "__main__":
     (HERE / "pictures").mkdir(exist_ok=True)

@@ -5,6 +5,9 @@ namespace jet::physics {
 namespace {
 
 constexpr double kStiffeningReserve = 2.0;  // see soft_springs.cpp
+/// Radians a substep up to which a spring turns a body: whirled about faster, its lever is another one before the force
+/// has acted, and the spring would give more than it holds.
+constexpr double kMostTurn = 0.5;
 
 double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(armA, armB), armA.dot(armB)); }
 
@@ -189,7 +192,8 @@ void Actuators::apply(State& state, Spring& spring, double h)
     if (!(compliance > 0)) return;
     const double elastic = -h * spring.stiffness * (length - spring.restLength);
     const double speed = jacobian.rate(state) + compliance * elastic;
-    jacobian.apply(state, elastic - h * spring.damping / (1 + h * spring.damping * compliance) * speed);
+    jacobian.applyTurning(state, elastic - h * spring.damping / (1 + h * spring.damping * compliance) * speed,
+                          kMostTurn / h);
 }
 
 void Actuators::apply(State& state, AngularSpring& spring, double h)

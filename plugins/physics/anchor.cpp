@@ -179,4 +179,15 @@ void AnchorJacobian::apply(State& state, double impulse) const
     }
 }
 
+void AnchorJacobian::applyTurning(State& state, double impulse, double most) const
+{
+    for (int i = 0; i < count_; ++i) {
+        const Entry& e = entries_[i];
+        double& omega = state.nodes.omega[e.node];
+        const double allowed = std::max(most, std::abs(omega));
+        state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear;
+        omega = std::clamp(omega + state.nodes.invInertia[e.node] * impulse * e.angular, -allowed, allowed);
+    }
+}
+
 }  // namespace jet::physics

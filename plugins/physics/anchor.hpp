@@ -38,6 +38,8 @@ public:
     double rate(const State&) const;
     double compliance(const State&) const;
     void apply(State&, double impulse) const;
+    /// The same, but it makes nothing turn faster than `most` rad/s.
+    void applyTurning(State&, double impulse, double most) const;
     /// The same as a force, for this substep.
     void addForce(State&, double force) const;
 

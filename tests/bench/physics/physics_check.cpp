@@ -1,8 +1,11 @@
 // jet-physics-check: what the engine promises of the benchmark's scenes beside speed.
 //
-//   jet-physics-check hash [SCENE...]           the state's hash after 240 steps, over threads and instruction sets
-//   jet-physics-check snapshot [SCENE...]       saved at step 60: the same future in the same world and in a new one
-//   jet-physics-check soak MINUTES [SCENE...]   simulated time; nothing may become NaN, escape or take more memory
+//   jet-physics-check hash [--plain] [--steps N] [SCENE...]
+//       the state's hash after N (240) steps, over threads and instruction sets; --plain: of one run alone
+//   jet-physics-check snapshot [--steps N] [SCENE...]
+//       saved at step N / 4: the same future in the same world and in a new one
+//   jet-physics-check soak MINUTES [SCENE...]
+//       simulated time; nothing may become NaN, escape or take more memory
 //
 // A scene is a name of jet-bench-physics or a file.
 #include "bench/physics/engines.hpp"
@@ -19,7 +22,7 @@ namespace jet::bench {
 
 namespace {
 
-constexpr int kHashSteps = 240, kSavedAt = 60, kFuture = 300;
+constexpr int kSteps = 240;
 
 Scene sceneOf(const std::string& name) { return std::filesystem::exists(name) ? loadScene(name) : makeScene(name); }
 
@@ -28,17 +31,18 @@ void advance(Engine& engine, const Scene& scene, int steps)
     for (int i = 0; i < steps; ++i) engine.step(scene.dt);
 }
 
-int hashes(const Scene& scene)
+int hashes(const Scene& scene, int steps, bool plainly)
 {
     JetOptions plain;
     std::vector<JetOptions> variants(5, plain);
     variants[1].threads = 2, variants[2].threads = 4, variants[3].simd = "sse2", variants[4].simd = "avx2";
     variants[4].threads = 3;
+    if (plainly) variants.resize(1);
     std::uint64_t first = 0;
     int differing = 0;
     for (const JetOptions& options : variants) {
         const auto engine = makeJet(scene, options);
-        advance(*engine, scene, kHashSteps);
+        advance(*engine, scene, steps);
         if (first == 0) first = engine->hash();
         if (engine->hash() == first) continue;
         std::fprintf(stderr, "%s: other bits with %d threads, simd \"%s\"\n", scene.name.c_str(), options.threads,
@@ -49,19 +53,19 @@ int hashes(const Scene& scene)
     return differing;
 }
 
-int snapshots(const Scene& scene)
+int snapshots(const Scene& scene, int steps)
 {
     const auto engine = makeJet(scene, {}), fresh = makeJet(scene, {});
-    advance(*engine, scene, kSavedAt);
+    advance(*engine, scene, steps / 4);
     const std::vector<std::byte> saved = engine->save();
     std::vector<std::uint64_t> future;
-    for (int i = 0; i < kFuture; ++i) {
+    for (int i = 0; i < steps; ++i) {
         engine->step(scene.dt);
         future.push_back(engine->hash());
     }
     engine->restore(saved);
     fresh->restore(saved);
-    for (int i = 0; i < kFuture; ++i) {
+    for (int i = 0; i < steps; ++i) {
         engine->step(scene.dt);
         fresh->step(scene.dt);
         const bool same = engine->hash() == future[static_cast<std::size_t>(i)],
@@ -111,15 +115,29 @@ int run(int argc, char** argv)
 {
     const std::string mode = argc > 1 ? argv[1] : "";
     if (mode != "hash" && mode != "snapshot" && mode != "soak")
-        throw std::runtime_error("usage: jet-physics-check hash|snapshot|soak MINUTES [SCENE...]");
+        throw std::runtime_error(
+            "usage: jet-physics-check hash [--plain] [--steps N] | snapshot [--steps N] | soak MINUTES   [SCENE...]");
     int next = 2;
     const double minutes = mode == "soak" ? std::stod(next < argc ? argv[next++] : "10") : 0;
+    int steps = kSteps;
+    bool plainly = false;
+    for (; next < argc && std::string(argv[next]).rfind("--", 0) == 0; ++next) {
+        const std::string option = argv[next];
+        if (option == "--plain")
+            plainly = true;
+        else if (option == "--steps" && next + 1 < argc)
+            steps = std::stoi(argv[++next]);
+        else
+            throw std::runtime_error("The option " + option + " is not known, or lacks its value.");
+    }
     std::vector<std::string> names(argv + next, argv + argc);
     if (names.empty()) names = sceneNames();
     int failed = 0;
     for (const std::string& name : names) {
         const Scene scene = sceneOf(name);
-        failed += mode == "hash" ? hashes(scene) : mode == "snapshot" ? snapshots(scene) : soak(scene, minutes);
+        failed += mode == "hash"       ? hashes(scene, steps, plainly)
+                  : mode == "snapshot" ? snapshots(scene, steps)
+                                       : soak(scene, minutes);
     }
     return failed > 0;
 }
