@@ -1,5 +1,7 @@
 #include "canvas/insertion_point.hpp"
 
+#include <jet/symbols.hpp>
+
 namespace jet::host {
 
 namespace {
@@ -9,9 +11,11 @@ bool receives(const Item* item)
     return item && item->isContainer() && item->parent() && item->editable() && item->shown();
 }
 
-/// The selected container, or the container around the selected item.
+/// The selected container, or the container around the selected item. What is put beside a selected instance of a symbol
+/// does not become a part of the symbol; with something inside of it selected, it does.
 const Item* containerOf(const Item* item)
 {
+    if (item && isInstance(*item)) item = item->parent();
     while (item && !item->isContainer()) item = item->parent();
     return item;
 }

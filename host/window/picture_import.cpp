@@ -40,9 +40,9 @@ std::pair<std::string, std::string> contentOf(const std::string& file)
     const QByteArray kind = address.left(comma);
     const QByteArray text = QByteArray::fromPercentEncoding(address.mid(comma + 1));
     const QByteArray bytes = kind.endsWith(";base64") ? QByteArray::fromBase64(text) : text;
-    QByteArray extension = kind.mid(kind.indexOf('/') + 1);
+    QByteArray extension = kind.mid(kind.indexOf('/') + 1);  // "data:image/gif;base64"
     extension.truncate(std::max<qsizetype>(extension.indexOf(';'), 0));
-    return {"picture." + (extension.isEmpty() ? std::string("png") : extension.toStdString()), bytes.toStdString()};
+    return {extension.isEmpty() ? std::string() : "picture." + extension.toStdString(), bytes.toStdString()};
 }
 
 bool pastePixels(Editor& editor, Scene& scene, const QImage& image, const QPointF& at)

@@ -69,6 +69,38 @@ TEST_F(InspectorTest, SpinningAValueIsOneUndoStep)
     EXPECT_EQ(scene().hash(), before);
 }
 
+TEST_F(InspectorTest, WhatLiesInASelectedGroupIsMovedOnceOnly)
+{
+    auto edit = scene().items().begin("Group");
+    const Item& group = edit.add<GroupItem>(*shapes()[0]->parent());
+    const Item& inner = *shapes()[0];
+    edit.move(inner, group, 0);
+    edit.setSelection({group.id(), inner.id()});
+    edit.commit();
+    ASSERT_TRUE(eventually([&] { return editor("position") != nullptr && editor("name") != nullptr; }));
+    QTest::qWait(100);
+    auto* x = editor("position")->findChild<QAbstractSpinBox*>();
+    x->selectAll();
+    QTest::keyClicks(x, "300");
+    QTest::keyClick(x, Qt::Key_Return);
+    EXPECT_NEAR(inner.bounds().min.x(), 300, 1e-9);
+}
+
+TEST_F(InspectorTest, ABurstOfChangesIsShownOnceAtItsEnd)
+{
+    auto* name = editor("name")->findChild<QLineEdit*>();
+    int shown = 0;
+    QObject::connect(name, &QLineEdit::textChanged, [&] { ++shown; });
+    for (int i = 0; i < 1000; ++i) {
+        auto edit = scene().items().begin("Rename");
+        edit.set(*shapes().back(), "name", "Name " + std::to_string(i));
+        edit.commit();
+    }
+    EXPECT_EQ(shown, 0);
+    EXPECT_TRUE(eventually([&] { return name->text() == "Name 999"; }));
+    EXPECT_EQ(shown, 1);
+}
+
 TEST_F(InspectorTest, ExactNumbersAreKeptAndOutOfRangeIsBounded)
 {
     scene().items().setSelection({});

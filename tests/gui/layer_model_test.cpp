@@ -2,6 +2,7 @@
 #include "window_fixture.hpp"
 
 #include <QAbstractItemModelTester>
+#include <QApplication>
 #include <QMimeData>
 
 namespace jet::test {
@@ -26,10 +27,12 @@ protected:
         const Item& item = edit.add(type, parent, Path::rectangle(Box({0, 0}, {9, 9})));
         edit.set(item, "name", name);
         edit.commit();
+        model_.flush();
         return item;
     }
     QStringList names(const QModelIndex& parent)
     {
+        model_.flush();
         if (model_.canFetchMore(parent)) model_.fetchMore(parent);
         QStringList names;
         for (int row = 0; row < model_.rowCount(parent); ++row) names << model_.index(row, 0, parent).data().toString();
@@ -56,6 +59,43 @@ TEST_F(LayerModelTest, ShowsItemsInTreeOrderAndFollowsUndo)
     EXPECT_EQ(names(layer), QStringList{"first"});
     scene().undoRedo().redo();
     EXPECT_EQ(names(layer), (QStringList{"first", "second"}));
+}
+
+TEST_F(LayerModelTest, ABurstOfChangesIsFollowedOnce)
+{
+    const QModelIndex layer = model_.indexOf(layer_->id());
+    ASSERT_TRUE(names(layer).isEmpty());
+    int updates = 0;
+    QObject::connect(&model_, &LayerModel::updated, [&] { ++updates; });
+    for (int i = 0; i < 1000; ++i) {
+        auto edit = scene().items().begin("Add");
+        edit.add<ShapeItem>(*layer_, Path::rectangle(Box({0, 0}, {9, 9})));
+        if (i % 3 == 0) edit.remove(*layer_->children().front());
+        edit.commit();
+    }
+    EXPECT_EQ(updates, 0);
+    QApplication::processEvents();
+    EXPECT_EQ(updates, 1);
+    EXPECT_EQ(model_.rowCount(layer), static_cast<int>(layer_->children().size()));
+}
+
+TEST_F(LayerModelTest, ABurstMayAddFillAndRemoveGroups)
+{
+    const QModelIndex layer = model_.indexOf(layer_->id());
+    const Item& kept = add(*layer_, "kept", GroupItem::type);
+    names(layer), names(model_.indexOf(kept.id()));
+    auto edit = scene().items().begin("Many");
+    const Item& group = edit.add<GroupItem>(*layer_);
+    const Item& inner = edit.add<ShapeItem>(group, Path::rectangle(Box({0, 0}, {9, 9})));
+    edit.commit();
+    auto move = scene().items().begin("Move");
+    move.move(inner, kept, 0);
+    move.remove(group);
+    move.commit();
+    QApplication::processEvents();
+    EXPECT_EQ(model_.rowCount(layer), 1);
+    EXPECT_EQ(model_.rowCount(model_.indexOf(kept.id())), 1);
+    EXPECT_EQ(model_.idOf(model_.indexOf(inner.id())), inner.id());
 }
 
 TEST_F(LayerModelTest, RenamingShowingAndLockingAreTransactions)

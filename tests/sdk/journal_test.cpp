@@ -4,6 +4,7 @@
 
 #include <jet/journal.hpp>
 #include <jet/project_tree.hpp>
+#include <jet/symbols.hpp>
 
 #include <gmock/gmock.h>
 
@@ -221,6 +222,51 @@ TEST_F(JournalTest, WhatASaveWroteBeforeTheEndIsNotDoneTwice)
     EXPECT_EQ(recovery.project->scenes()[0]->items().itemCount(), 4u) << "layer and three shapes, none twice";
 }
 
+TEST_F(JournalTest, SymbolsAreRecoveredAfterEachStepDoneAndUndone)
+{
+    auto project = saved();
+    const Journal journal(*project, journals);
+    Scene& scene = *project->scenes()[0];
+    const auto expectRecovered = [&](const std::string& what) {
+        const auto recovery = recoverProject(findJournals(journals).front().file, events, catalog).orThrow();
+        EXPECT_EQ(recovery.project->hash(), project->hash()) << what;
+        EXPECT_THAT(recovery.notes, IsEmpty()) << what;
+    };
+    const auto step = [&](const char* label, auto change) {
+        auto edit = scene.items().begin(label);
+        change(edit);
+        edit.commit();
+        expectRecovered(label);
+        scene.undoRedo().undo();
+        expectRecovered(std::string(label) + ", undone");
+        scene.undoRedo().redo();
+        expectRecovered(std::string(label) + ", redone");
+    };
+    ItemId first, second;
+    step("create", [&](Transaction& edit) {
+        const Item& box = edit.add<ShapeItem>(scene.root(), Path::rectangle(Box({0, 0}, {9, 9})));
+        first = createSymbol(edit, scene, std::vector<const Item*>{&box}, "Box")->id();
+    });
+    const auto symbol = [&](const char* name) -> const Item& { return *findSymbol(scene, name); };
+    step("place", [&](Transaction& edit) {
+        second = placeSymbol(edit, symbol("Box"), scene.root(), Affine::rotation(0.3)).id();
+    });
+    step("change in one", [&](Transaction& edit) {
+        const Item& member = *scene.items().find(second)->children().front();
+        edit.setPath(member, Path::ellipse(Box({0, 0}, {5, 5})));
+        edit.addEffect(member, "tint");
+    });
+    step("add in one", [&](Transaction& edit) {
+        edit.add<ShapeItem>(*scene.items().find(first), Path::rectangle(Box({20, 20}, {30, 30})));
+    });
+    step("nest", [&](Transaction& edit) {
+        createSymbol(edit, scene, std::vector<const Item*>{scene.items().find(second)}, "Outer");
+    });
+    step("swap", [&](Transaction& edit) { swapSymbol(edit, *scene.items().find(first), symbol("Outer")); });
+    step("detach", [&](Transaction& edit) { detachInstance(edit, *scene.items().find(first)); });
+    step("rename", [&](Transaction& edit) { edit.set(symbol("Outer"), "name", "Other"); });
+}
+
 TEST_F(JournalTest, StepsOfTheProjectTreeAreRecoveredDoneAndUndone)
 {
     for (const bool untitled : {false, true}) {
@@ -244,6 +290,10 @@ TEST_F(JournalTest, StepsOfTheProjectTreeAreRecoveredDoneAndUndone)
         expectRecovered("rename");
         tree.move(added, project->root(), 0);
         expectRecovered("move");
+        draw(tree.duplicate(added));
+        expectRecovered("duplicate, and draw in the copy");
+        tree.undo();
+        expectRecovered("and undo that");
         Scene& first = *project->scenes().back();
         draw(first, 30);
         tree.remove(first);

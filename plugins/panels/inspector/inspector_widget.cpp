@@ -1,5 +1,6 @@
 #include "inspector_widget.hpp"
 
+#include <jet/arrange.hpp>
 #include <jet/ui/icons.hpp>
 
 #include <QCoreApplication>
@@ -199,7 +200,10 @@ void InspectorWidget::changeGeometry(const PropertySpec& spec, const Value& valu
                           box.height() < kSmallestSize ? 1 : std::max(wanted.y(), kSmallestSize) / now.y());
         change = Affine::scaling(factor, box.min);
     }
-    editItems("Transform", spec.id, phase, [&](Transaction& e, const Item& item) { e.transform(item, change); });
+    // What is in a selected group moves with the group, and not once more by itself.
+    edit("Transform", spec.id, phase, [&](Transaction& e) {
+        for (const Item* item : topSelection(*scene_)) e.transform(*item, change);
+    });
 }
 
 void InspectorWidget::addTypeSection()

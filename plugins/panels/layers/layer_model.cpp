@@ -7,7 +7,7 @@
 #include <QMimeData>
 #include <QPalette>
 
-#include <unordered_set>
+#include <utility>
 
 namespace jet::layers {
 
@@ -68,6 +68,8 @@ void LayerModel::setScene(Scene* scene)
     nodes_.clear();
     root_.reset();
     changed_.reset();
+    parents_.clear();
+    touched_.clear();
     if (scene) {
         root_ = std::make_unique<Node>(Node{scene->root().id()});
         nodes_.emplace(root_->id.value, root_.get());
@@ -223,27 +225,38 @@ void LayerModel::sync(Node& node)
     insertRows(node, head, std::span(now).subspan(head, now.size() - head - tail));
 }
 
+// Only notes what changed: a script or a drag may commit a thousand times before the next frame.
 void LayerModel::follow(const ItemsChanged& event)
 {
-    std::unordered_set<std::uint64_t> parents, rows;
     const auto note = [&](const auto& change) {
         using T = std::decay_t<decltype(change)>;
         if constexpr (std::is_same_v<T, ItemAdded> || std::is_same_v<T, ItemRemoved>) {
-            parents.insert(change.parent.value);
+            parents_.insert(change.parent.value);
         } else if constexpr (std::is_same_v<T, ItemMoved>) {
-            parents.insert({change.oldParent.value, change.newParent.value});
+            parents_.insert({change.oldParent.value, change.newParent.value});
         } else if constexpr (std::is_same_v<T, PropertyChanged> || std::is_same_v<T, TypeChanged>) {
-            rows.insert(change.item.value);
+            touched_.insert(change.item.value);
         }
     };
     for (const Change& change : event.changes) std::visit(note, change);
+    if (flushing_ || (parents_.empty() && touched_.empty())) return;
+    flushing_ = true;
+    QMetaObject::invokeMethod(this, &LayerModel::flush, Qt::QueuedConnection);
+}
+
+void LayerModel::flush()
+{
+    flushing_ = false;
+    const auto parents = std::exchange(parents_, {}), touched = std::exchange(touched_, {});
+    if (!scene_ || (parents.empty() && touched.empty())) return;
     for (const std::uint64_t parent : parents) {
         const auto found = nodes_.find(parent);
         if (found == nodes_.end()) continue;
         if (found->second->populated) sync(*found->second);
         rowChanged(ItemId{parent});  // it may have got its first child, or lost its last
     }
-    for (const std::uint64_t row : rows) rowChanged(ItemId{row});
+    for (const std::uint64_t row : touched) rowChanged(ItemId{row});
+    emit updated();
     if (!parents.empty()) emit structureChanged();
 }
 

@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace jet::layers {
 
@@ -28,6 +29,8 @@ public:
 
     ItemId idOf(const QModelIndex& index) const;
     const Item* itemOf(const QModelIndex& index) const;
+    /// Brings the rows in line with the scene now, instead of when the event loop turns.
+    void flush();
     /// The row of the item, mirroring its ancestors' children if need be; invalid when it is not in the tree.
     QModelIndex indexOf(ItemId item);
 
@@ -51,6 +54,8 @@ public:
                       const QModelIndex& parent) override;
 
 signals:
+    /// The rows follow the scene again: once for all that was committed since the event loop last turned.
+    void updated();
     /// Rows were put in or taken out; selection and open branches may have to be shown again.
     void structureChanged();
 
@@ -74,6 +79,8 @@ private:
     Scene* scene_ = nullptr;
     std::unique_ptr<Node> root_;
     std::unordered_map<std::uint64_t, Node*> nodes_;
+    std::unordered_set<std::uint64_t> parents_, touched_;  // ids: whose children changed, and whose own row
+    bool flushing_ = false;                                // at the next turn of the event loop
     Subscription changed_;
 };
 

@@ -53,8 +53,8 @@ void LayerTree::showScene(Scene* scene)
     model_.setScene(scene);
     selected_.reset();
     if (!scene) return;
-    selected_ =
-        editor_.events().subscribe<SelectionChanged>(scene, [this](const SelectionChanged&) { showSelection(); });
+    selected_ = editor_.events().subscribeCoalesced<SelectionChanged>(
+        scene, [this](const SelectionChanged&) { showSelection(); });
     // Layers start open; deeper groups as they were left.
     for (const auto& child : scene->root().children()) {
         if (child->is<LayerItem>()) open_.insert(child->id().value);
