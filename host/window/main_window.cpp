@@ -54,8 +54,9 @@ MainWindow::MainWindow(const WindowLaunch& launch)
       actions_(this, [this](const std::exception& problem) { showMessage(problem.what()); }),
       projects_(*this, *documents_, this), pluginController_(*this, projects_, *messages_, this),
       formats_(*this, *documents_, this), edits_(*this, *documents_, this), commands_(*this, *documents_, this),
-      player_(*this, *documents_, this), tools_(*this, *documents_, toolOptions_, this), docks_(*this, *this),
-      reloader_(*this, *documents_, tools_, docks_, launch.runtime, this), views_(*documents_, docks_, this)
+      player_(*this, *documents_, this), sounds_(*this, this), tools_(*this, *documents_, toolOptions_, this),
+      docks_(*this, *this), reloader_(*this, *documents_, tools_, docks_, launch.runtime, this),
+      views_(*documents_, docks_, this)
 {
     pluginController_.setUseProjectPlugins(launch.useProjectPlugins);
     pluginController_.setFrozen(launch.frozen);

@@ -14,6 +14,7 @@
 #include "window/plugin_controller.hpp"
 #include "window/plugin_reloader.hpp"
 #include "window/project_controller.hpp"
+#include "window/sound_player.hpp"
 #include "window/tool_controller.hpp"
 #include "window/view_controller.hpp"
 
@@ -42,6 +43,7 @@ public:
     Documents& documents() { return *documents_; }
     Actions& actionTable() { return actions_; }
     MessageBar& messages() { return *messages_; }
+    SoundPlayer& sounds() { return sounds_; }
     PluginController& pluginController() { return pluginController_; }
     /// The layout and choices of the last run.
     void restoreSettings();
@@ -116,6 +118,7 @@ private:
     EditController edits_;
     CommandController commands_;
     PlayController player_;
+    SoundPlayer sounds_;
     ToolController tools_;
     DockArea docks_;
     PluginReloader reloader_;

@@ -18,13 +18,14 @@ using host::RecoveryChoice;
 
 class RecoveryTest : public WindowFixture {
 protected:
-    /// Draws in a saved project, and leaves the journal behind as a crash would. Returns the hash.
-    std::uint64_t crash()
+    /// Draws in a saved project, does more if wanted, and leaves the journal behind as a crash would. Returns the hash.
+    std::uint64_t crash(const std::function<void()>& more = {})
     {
         draw("rectangle", {10, 10}, {60, 60});
         EXPECT_TRUE(window().projects().saveAs(folder("game")));
         draw("ellipse", {100, 10}, {160, 60});
         draw("ellipse", {200, 10}, {260, 60});
+        if (more) more();
         const std::uint64_t hash = window().project().hash();
         const auto journals = findJournals();
         EXPECT_EQ(journals.size(), 1u);
@@ -63,6 +64,25 @@ TEST_F(RecoveryTest, OpeningAProjectOffersItsUnsavedChangesAndRecoverMakesThem)
     EXPECT_TRUE(findJournals()[0].inUse);
     EXPECT_TRUE(window().projects().save());
     EXPECT_TRUE(findJournals().empty());
+}
+
+TEST_F(RecoveryTest, WhatWasDoneToTheProjectsTreeIsRecovered)
+{
+    const std::uint64_t hash = crash([this] {
+        ProjectTree& tree = window().projectTree();
+        Scene& first = *window().project().scenes().front();
+        Scene& copy = tree.duplicate(first);
+        tree.rename(copy, "Level 2");
+        tree.makeStart(copy);
+        tree.remove(first);
+        tree.undo();
+        window().openScene(first);
+        draw("rectangle", {10, 100}, {60, 160});
+    });
+    answer(RecoveryChoice::Kind::Recover);
+    ASSERT_TRUE(window().projects().open(folder("game")));
+    EXPECT_EQ(window().project().hash(), hash);
+    EXPECT_EQ(window().project().scenes().front()->name(), "Level 2");
 }
 
 TEST_F(RecoveryTest, KeepForLaterOpensTheSavedProjectAndOffersAgain)

@@ -10,6 +10,12 @@
 
 namespace jet::find {
 
+namespace {
+
+constexpr int kLowest = 48;  // pixels: two rows
+
+}  // namespace
+
 FindWidget::FindWidget(Editor& editor)
     : editor_(editor), model_(this), line_(new QLineEdit(this)), note_(new QLabel(this)), list_(new QListView(this))
 {
@@ -28,6 +34,9 @@ FindWidget::FindWidget(Editor& editor)
     list_->setModel(&model_);
     list_->setUniformItemSizes(true);  // a hundred thousand rows are laid out at once
     list_->setAccessibleName(tr("Items found"));
+    // It scrolls by itself, however low the panel is; its wish for height would make the panel scroll around it.
+    list_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);
+    list_->setMinimumHeight(kLowest);
     setFocusProxy(line_);
 
     auto* bar = new QHBoxLayout;
@@ -50,7 +59,7 @@ FindWidget::FindWidget(Editor& editor)
     layout->setSpacing(0);
     layout->addLayout(bar);
     layout->addWidget(note_);
-    layout->addWidget(list_);
+    layout->addWidget(list_, 1);
 
     connect(line_, &QLineEdit::textChanged, this, &FindWidget::readQuery);
     connect(list_, &QListView::clicked, this, &FindWidget::goTo);
@@ -70,6 +79,11 @@ bool FindWidget::eventFilter(QObject* object, QEvent* event)
 {
     if (object != line_ || event->type() != QEvent::KeyPress) return QWidget::eventFilter(object, event);
     const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->key() == Qt::Key_Down && key->modifiers() == Qt::NoModifier) {
+        list_->setFocus();
+        step(1);
+        return true;
+    }
     if (key->key() != Qt::Key_Return && key->key() != Qt::Key_Enter) return QWidget::eventFilter(object, event);
     if (key->modifiers() & Qt::ControlModifier) {
         selectAll();

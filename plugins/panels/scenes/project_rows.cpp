@@ -92,11 +92,10 @@ QTreeWidgetItem* ProjectRows::add(QTreeWidgetItem* parent, Row row, const QStrin
     item->setIcon(kName, ui::icon(icon));
     item->setData(kName, kRowRole, static_cast<int>(rows_.size()));
     const bool fixed = row.kind == Row::Kind::Scenes || row.kind == Row::Kind::Files;
-    const bool holds = row.kind == Row::Kind::Scenes || row.kind == Row::Kind::Filter;
     Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable;
     if (!fixed) flags |= Qt::ItemIsEditable;
     if (row.kind == Row::Kind::Scene || row.kind == Row::Kind::Filter) flags |= Qt::ItemIsDragEnabled;
-    if (holds || row.kind == Row::Kind::Files) flags |= Qt::ItemIsDropEnabled;
+    if (row.filter || row.kind == Row::Kind::Files) flags |= Qt::ItemIsDropEnabled;
     item->setFlags(flags);
     rows_.push_back(std::move(row));
     return item;
@@ -227,18 +226,19 @@ void ProjectRows::dropEvent(QDropEvent* event)
     event->accept();
     const auto dragged = current();
     QTreeWidgetItem* target = itemAt(event->position().toPoint());
-    if (!dragged || !target) return;
+    bool isAbove = dropIndicatorPosition() == AboveItem, isOn = dropIndicatorPosition() == OnItem;
+    if (target && rowOf(*target).kind == Row::Kind::Script) target = target->parent(), isAbove = isOn = false;
+    if (!dragged || !target || !rowOf(*target).filter) return;
     const Row at = rowOf(*target);
-    if (dropIndicatorPosition() == OnItem && at.filter && at.kind != Row::Kind::Scene) {
-        emit moved(*dragged, at.filter, -1);
+    QTreeWidgetItem* parent = target->parent();
+    if (!parent || (isOn && at.kind == Row::Kind::Filter)) {
+        emit moved(*dragged, at.filter, -1);  // into it
     } else if (at.kind == dragged->kind) {
-        QTreeWidgetItem* parent = target->parent();
-        int index = 0;  // among those of its kind
+        int index = isAbove ? 0 : 1;  // among those of its kind
         for (int i = 0; i < parent->indexOfChild(target); ++i)
             index += rowOf(*parent->child(i)).kind == at.kind ? 1 : 0;
-        emit moved(*dragged, rowOf(*parent).filter, index + (dropIndicatorPosition() == AboveItem ? 0 : 1));
-    } else if (at.filter) {
-        QTreeWidgetItem* parent = target->parent() ? target->parent() : target;
+        emit moved(*dragged, rowOf(*parent).filter, index);
+    } else {
         emit moved(*dragged, rowOf(*parent).filter, at.kind == Row::Kind::Scene ? 0 : -1);
     }
 }
