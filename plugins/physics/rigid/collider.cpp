@@ -9,11 +9,15 @@ namespace jet::physics {
 namespace {
 
 constexpr float kSlop = 0.002F;  // of the length of the smaller part
-constexpr float kRoom = 0.12F;   // of the typical length: margin of the boxes
+constexpr float kRoom = 0.03F;   // of the typical length: margin of the boxes
 constexpr float kRoomOfLength = 0.05F;
 constexpr float kAhead = 2;     // steps
 constexpr float kQuiet = 0.5F;  // slops: within this far of where it was a body counts as still
 constexpr float kMoved = 1e30F;
+constexpr float kThin = 0.5F;  // of the thickness
+constexpr float kLonger = 3;
+constexpr float kLongTypical = 6;  // typical lengths: longer thin parts are sought piece by piece
+constexpr int kMostPieces = 64;
 constexpr std::size_t kBodiesABlock = 512;
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
@@ -51,7 +55,7 @@ void Collider::disturb(Index body)
 void Collider::disturbAll()
 {
     for (Index i = 1; i < resting_.size(); ++i) disturb(i);
-    for (RigidContact& c : contacts_) c.due = true;
+    for (Index i = 0; i < contacts_.size(); ++i) markDue(i);
 }
 
 bool Collider::rouses(RigidContact& c)
@@ -60,7 +64,8 @@ bool Collider::rouses(RigidContact& c)
     for (const Index body : {c.bodyA, c.bodyB}) {
         if (!bodies_[body].asleep) continue;
         roused_.push_back(body);
-        any = c.due = true;
+        markDue(static_cast<Index>(&c - contacts_.data()));
+        any = true;
     }
     return any;
 }
@@ -71,7 +76,7 @@ void Collider::releaseAwake()
     for (Index i = 0; i < contacts_.size(); ++i) {
         if (places_[i] != kAsleep || !(awake(contacts_[i].bodyA) || awake(contacts_[i].bodyB))) continue;
         places_[i] = kIdle;
-        contacts_[i].due = true;
+        markDue(i);
     }
 }
 
@@ -81,9 +86,11 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
     if (typical_ == 0 && !parts_.empty()) measure();
     if (rearranged_ || !welded_) weld_.run(parts_, bodies_, state, typical_);
     if (rearranged_) {
-        for (RigidContact& c : contacts_) c.due = true;
+        for (Index i = 0; i < contacts_.size(); ++i) markDue(i);
         disturbed_ = true;
     }
+    if (disturbed_)
+        for (Nearing& n : nearing_) n.until = -1;
     welded_ = true;
     rearranged_ = false;
     prepareBodies();
@@ -95,6 +102,7 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
             const Index body = static_cast<Index>(i + 1);
             if (!bodies_[body].posed) fast |= takePose(body, state, fall, dt);
             bodies_[body].posed = bodies_[body].asleep;
+            noteReached(body);
             if (bodies_[body].asleep) {
                 drift_[body] = 0;
                 continue;
@@ -120,14 +128,24 @@ void Collider::measure()
     typical_ = lengths[lengths.size() / 2];
 }
 
+void Collider::prepareSweep()
+{
+    if (typical_ == 0 && !parts_.empty()) measure();
+    sweep_.resize(parts_.size(), typical_);
+    for (Index part = 0; part < parts_.size(); ++part)
+        if (isLong(parts_[part])) sweep_.setLong(part);
+}
+
 void Collider::prepareBodies()
 {
     const std::size_t known = resting_.size();
-    poses_.resize(bodies_.size()), resting_.resize(bodies_.size()), drift_.resize(bodies_.size(), 0.0F);
+    poses_.resize(bodies_.size()), resting_.resize(bodies_.size()), drift_.resize(bodies_.size(), 0.0F),
+        way_.resize(bodies_.size(), 0.0);
+    reached_.resize(bodies_.size(), 0.0);
     fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1);
     for (std::size_t i = std::max<std::size_t>(known, 1); i < bodies_.size(); ++i) resting_[i].x = 1e300;
     if (surprised_ || surprise_.size() != bodies_.size()) surprise_.assign(bodies_.size(), 0.0F);
-    if (sweep_.boxes().size() != parts_.size()) sweep_.resize(parts_.size());
+    if (sweep_.parts() != parts_.size()) prepareSweep();
     surprised_ = fast_ = false;
 }
 
@@ -202,23 +220,32 @@ bool Collider::keepsWithin(Index body, double dt) const
 
 void Collider::fitBox(Index index, const Pose& pose, float room, double dt)
 {
-    FatBox& box = sweep_.box(index);
-    box = boxOf(index, pose, room, dt);
-    // What moves will be there next.
+    sweep_.move(index, withAhead(boxOf(index, pose, room, dt), pose, dt));
+    if (std::vector<FatBox>* pieces = sweep_.piecesOf(index)) fitPieces(*pieces, index, pose, room, dt);
+}
+
+/// What moves will be there next.
+FatBox Collider::withAhead(FatBox box, const Pose& pose, double dt) const
+{
     const float aheadX = kAhead * pose.velocityX * static_cast<float>(dt),
                 aheadY = kAhead * pose.velocityY * static_cast<float>(dt);
     const float most = 0.5F * typical_;
     box.minX += std::clamp(aheadX, -most, 0.0F), box.maxX += std::clamp(aheadX, 0.0F, most);
     box.minY += std::clamp(aheadY, -most, 0.0F), box.maxY += std::clamp(aheadY, 0.0F, most);
-    sweep_.markMoved(index);
+    return box;
 }
 
 FatBox Collider::boxOf(Index index, const Pose& pose, float room, double dt) const
 {
     const Part& part = parts_[index];
+    return boxAround(part.corners, part.count, part.radius + room, pose, dt);
+}
+
+FatBox Collider::boxAround(const Vec2f* corners, int count, float room, const Pose& pose, double dt)
+{
     float minX = 3e38F, minY = 3e38F, maxX = -3e38F, maxY = -3e38F;
-    for (int i = 0; i < part.count; ++i) {
-        const Vec2f at = turned(pose.turn, part.corners[i]);
+    for (int i = 0; i < count; ++i) {
+        const Vec2f at = turned(pose.turn, corners[i]);
         minX = std::min(minX, at.x), maxX = std::max(maxX, at.x);
         minY = std::min(minY, at.y), maxY = std::max(maxY, at.y);
     }
@@ -226,7 +253,7 @@ FatBox Collider::boxOf(Index index, const Pose& pose, float room, double dt) con
     const float straight = std::sqrt(stepX * stepX + stepY * stepY);
     // Far from the origin single precision has gaps; they are added.
     const float gap = static_cast<float>(2e-7 * (std::abs(pose.x) + std::abs(pose.y)));
-    const float margin = part.radius + room + gap + (pose.travel - straight);
+    const float margin = room + gap + (pose.travel - straight);
     FatBox box;
     box.minX = static_cast<float>(pose.x) + minX + std::min(stepX, 0.0F) - margin;
     box.maxX = static_cast<float>(pose.x) + maxX + std::max(stepX, 0.0F) + margin;
@@ -235,10 +262,68 @@ FatBox Collider::boxOf(Index index, const Pose& pose, float room, double dt) con
     return box;
 }
 
+/// A part along its longest side, in its body's frame.
+Collider::Slab Collider::slabOf(const Part& part)
+{
+    Slab slab;
+    float longest = 0;
+    for (int i = 0; i < part.count; ++i) {
+        const Vec2f side = part.corners[(i + 1) % part.count] - part.corners[i];
+        const float length = std::sqrt(dot(side, side));
+        if (length > longest) longest = length, slab.along = (1 / length) * side;
+    }
+    slab.from = slab.low = 3e38F, slab.to = slab.high = -3e38F;
+    const Vec2f across{-slab.along.y, slab.along.x};
+    for (int i = 0; i < part.count; ++i) {
+        const float u = dot(slab.along, part.corners[i]), v = dot(across, part.corners[i]);
+        slab.from = std::min(slab.from, u), slab.to = std::max(slab.to, u);
+        slab.low = std::min(slab.low, v), slab.high = std::max(slab.high, v);
+    }
+    return slab;
+}
+
+/// Is its box, when it lies obliquely, mostly empty, and large enough that this matters?
+bool Collider::isLong(const Part& part) const
+{
+    const Slab slab = slabOf(part);
+    return part.count > 1 && slab.to - slab.from > 4 * (slab.high - slab.low + 2 * part.radius) &&
+           slab.to - slab.from > kLongTypical * typical_;
+}
+
+void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& pose, float room, double dt) const
+{
+    const Part& part = parts_[index];
+    const Slab slab = slabOf(part);
+    const Vec2f across{-slab.along.y, slab.along.x};
+    const float length = slab.to - slab.from;
+    const int count = std::clamp(static_cast<int>(std::min(length / (2 * typical_), 1000.0F)), 1, kMostPieces);
+    pieces.resize(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const float from = slab.from + length * static_cast<float>(i) / static_cast<float>(count),
+                    to = slab.from + length * static_cast<float>(i + 1) / static_cast<float>(count);
+        const Vec2f corners[] = {from * slab.along + slab.low * across, from * slab.along + slab.high * across,
+                                 to * slab.along + slab.low * across, to * slab.along + slab.high * across};
+        pieces[static_cast<std::size_t>(i)] = withAhead(boxAround(corners, 4, part.radius + room, pose, dt), pose, dt);
+    }
+}
+
 void Collider::findPairs(const WorldSettings& settings)
 {
     if (!sweep_.anyMoved()) return;
-    sweep_.sweep([&](Index a, Index b) { addPair(a, b, settings); });
+    // What met before is known already, or is none.
+    found_.clear();
+    sweep_.sweep([&](Index a, Index b, bool met) {
+        if (met || known_.contains(RigidContact::keyOf(a, b))) return;
+        if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
+        found_.emplace_back(a, b);
+    });
+    // From left to right: the order decides the order of solving, and this one lets tall heaps rest.
+    std::sort(found_.begin(), found_.end(), [&](const std::pair<Index, Index>& p, const std::pair<Index, Index>& q) {
+        const auto left = [&](Index part) { return std::pair(sweep_.box(part).minX, part); };
+        return std::pair(left(p.first), left(p.second)) < std::pair(left(q.first), left(q.second));
+    });
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    for (const auto& [a, b] : found_) addPair(std::min(a, b), std::max(a, b), settings);
 }
 
 bool Collider::mayMeet(Index a, Index b) const
@@ -261,17 +346,20 @@ void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
     if (!pair.collides) return;
     RigidContact c;
     c.partA = partA, c.partB = partB, c.bodyA = a, c.bodyB = b;
-    if (known_.contains(c.key()) || apart(partA, partB) || excluded_.contains(bodyKey(a, b))) return;
+    if ((isLonger(partA, partB) && apart(partA, partB)) || excluded_.contains(bodyKey(a, b))) return;
     known_.insert(c.key());
     c.friction = static_cast<float>(pair.friction), c.restitution = static_cast<float>(pair.restitution);
     const float lengthA = parts_[partA].length, lengthB = parts_[partB].length;
     c.slop = kSlop * (!bodyA.moves ? lengthB : !bodyB.moves ? lengthA : std::min(lengthA, lengthB));
     c.resolve = !bodyA.sensor && !bodyB.sensor;
+    Nearing n;
+    n.bodyA = a, n.bodyB = b, n.slop = c.slop;
+    n.thin = kThin * std::min(parts_[partA].thickness, parts_[partB].thickness);
     if (free_.empty()) {
-        contacts_.push_back(c), places_.push_back(kIdle);
+        contacts_.push_back(c), places_.push_back(kIdle), nearing_.push_back(n);
         return;
     }
-    contacts_[free_.back()] = c, places_[free_.back()] = kIdle;
+    contacts_[free_.back()] = c, places_[free_.back()] = kIdle, nearing_[free_.back()] = n;
     free_.pop_back();
 }
 
@@ -280,6 +368,13 @@ void Collider::forget(Index contact)
     known_.erase(contacts_[contact].key());
     places_[contact] = kFree;
     free_.push_back(contact);
+}
+
+/// Is one of them so long that its box meets much that it does not?
+bool Collider::isLonger(Index partA, Index partB) const
+{
+    const float a = parts_[partA].reach, b = parts_[partB].reach;
+    return std::max(a, b) > kLonger * std::min(a, b);
 }
 
 /// Boxes of long oblique parts meet much that they do not: here B's box is looked at from A's sides.
@@ -307,13 +402,15 @@ bool Collider::apart(Index partA, Index partB) const
 
 void Collider::forgetPairs()
 {
-    contacts_.clear(), places_.clear(), free_.clear();
+    contacts_.clear(), places_.clear(), free_.clear(), nearing_.clear();
     known_.clear();
+    sweep_.forget();
     std::fill(room_.begin(), room_.end(), -1.0F);
 }
 
 void Collider::rebuild()
 {
+    sweep_.rebuild();
     welded_ = false;  // outlines follow from places
     for (RigidBody& body : bodies_) body.posed = false;
     known_.clear();
@@ -325,7 +422,8 @@ std::size_t Collider::bytes() const
 {
     return bodies_.capacity() * sizeof(RigidBody) + parts_.capacity() * sizeof(Part) +
            (poses_.capacity() + fitted_.capacity() + resting_.capacity()) * sizeof(Pose) +
-           contacts_.capacity() * sizeof(RigidContact) + (places_.capacity() + free_.capacity()) * 4 +
+           contacts_.capacity() * (sizeof(RigidContact) + sizeof(Nearing)) + way_.capacity() * sizeof(double) +
+           (places_.capacity() + free_.capacity()) * 4 +
            (drift_.capacity() + room_.capacity() + surprise_.capacity()) * sizeof(float) + sweep_.bytes() +
            known_.bytes() + excluded_.bytes() + weld_.bytes();
 }

@@ -47,6 +47,22 @@ public:
 
     /// Is the pair to be looked at in this step?
     bool due(const RigidContact& c) const { return c.due || drift_[c.bodyA] + drift_[c.bodyB] > c.slop; }
+    /// The same for one without points. Cheaper, and says less often yes: not before its bodies may have come together.
+    bool nears(Index contact) const
+    {
+        const Nearing& n = nearing_[contact];
+        if (n.until >= 0 &&
+            (drift_[n.bodyA] + drift_[n.bodyB] <= n.slop || reached_[n.bodyA] + reached_[n.bodyB] <= n.until))
+            return false;
+        return due(contacts_[contact]);
+    }
+    /// It is looked at in the next step.
+    void markDue(Index contact) { contacts_[contact].due = true, nearing_[contact].until = -1; }
+    /// The body's farthest point has come so many units.
+    void travelled(Index body, double way)
+    {
+        if (body < way_.size()) way_[body] += way;  // else it was never looked at
+    }
     /// [bodies] units a body may come from where it rests in this step.
     const float* drifts() const { return drift_.data(); }
     /// Are there contacts that are due for another reason?
@@ -55,7 +71,7 @@ public:
     void settled() { disturbed_ = false; }
     /// Brings the pair's points up to date; false: they are far apart and the pair is to be forgotten. Different
     /// contacts may be updated at once.
-    bool update(RigidContact&, double dt) const;
+    bool update(RigidContact&, double dt);
     void forget(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
@@ -84,10 +100,13 @@ public:
     template <class Archive>
     void archive(Archive& with)
     {
-        sweep_.resize(parts_.size());
+        if (sweep_.parts() != parts_.size()) prepareSweep();
         with.list(contacts_, [&](RigidContact& c) { with(c); });
         with.list(places_, [&](Place& p) { with(p); });
         with.list(free_, [&](Index& i) { with(i); });
+        with.list(nearing_, [&](Nearing& n) { with(n); });
+        way_.resize(bodies_.size(), 0.0);
+        with(way_);
         fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1), resting_.resize(bodies_.size());
         for (std::vector<Pose>* poses : {&fitted_, &resting_})
             for (Pose& pose : *poses) with(pose.x), with(pose.y), with(pose.turn), with(pose.travel);
@@ -110,6 +129,16 @@ private:
     float ahead(Index body) const;
     bool keepsWithin(Index body, double dt) const;
     FatBox boxOf(Index part, const Pose&, float room, double dt) const;
+    struct Slab {
+        Vec2f along{1, 0};  // unit
+        float from = 0, to = 0, low = 0, high = 0;
+    };
+    void prepareSweep();
+    static Slab slabOf(const Part&);
+    bool isLong(const Part&) const;
+    static FatBox boxAround(const Vec2f* corners, int count, float room, const Pose&, double dt);
+    FatBox withAhead(FatBox, const Pose&, double dt) const;
+    void fitPieces(std::vector<FatBox>&, Index part, const Pose&, float room, double dt) const;
     void fitBox(Index part, const Pose&, float room, double dt);
     void findPairs(const WorldSettings&);
     void addPair(Index partA, Index partB, const WorldSettings&);
@@ -119,11 +148,19 @@ private:
     Relative relative(Index bodyA, Index bodyB) const;
     Manifold meet(const RigidContact&, const Relative&, float reach) const;
     bool fromBehind(const RigidContact&) const;
+    void noteReached(Index body)
+    {
+        reached_[body] = way_[body] + static_cast<double>(poses_[body].travel + surprise_[body]);
+    }
+    bool isLonger(Index partA, Index partB) const;
     float withinBox(Index body, const Vec2& move, double dt) const;
     float untilCentrePasses(const RigidContact&, const Vec2& relativeMove) const;
     float closingSpeed(const RigidContact&) const;
     bool reuse(RigidContact&, const Relative&, float reach) const;
     void renew(RigidContact&, const Manifold&, const Relative&, float reach) const;
+    bool isSlow(Index contact) const;
+    bool staysApart(const RigidContact&, const Relative&, float reach);
+    void noteGap(const RigidContact&, float gap);
     void foresee(RigidContact&, const Relative&, double dt) const;
     void decideSide(RigidContact&) const;
 
@@ -140,8 +177,12 @@ private:
     std::vector<float> surprise_;  // [bodies] units a hit may carry it in this step
     PairSweep sweep_;
     KeySet known_, excluded_;
+    std::vector<std::pair<Index, Index>> found_;  // scratch of findPairs()
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;       // [contacts]
+    std::vector<Nearing> nearing_;    // [contacts]
+    std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
+    std::vector<double> reached_;     // [bodies] units they may have come at the end of this step
     std::vector<Index> free_;         // gaps in the contacts
     std::vector<Index> roused_;       // bodies
     float typical_ = 0;               // length of a moving part in the middle

@@ -119,7 +119,7 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
     const auto& places = collider.places();
     idleDue_.clear();
     for (Index contact = 0; contact < contacts.size(); ++contact)
-        if (places[contact] == kIdle && collider.due(contacts[contact])) idleDue_.push_back(contact);
+        if (places[contact] == kIdle && collider.nears(contact)) idleDue_.push_back(contact);
     const std::size_t blocks = (idleDue_.size() + kIdleABlock - 1) / kIdleABlock;
     for (std::size_t i = 0; i < blocks; ++i) blockAt(i);
     pool_->run(blocks, [&](std::size_t i) {
@@ -326,7 +326,7 @@ void Solver<Real>::release(Collider& collider)
         if (!isPlaced(places[contact])) continue;
         RigidContact& c = collider.contacts()[contact];
         fetch(c, places[contact]);
-        c.due = true;
+        collider.markDue(contact);
         places[contact] = kIdle;
     }
     for (Colour& colour : colours_) {

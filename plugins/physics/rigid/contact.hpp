@@ -60,7 +60,7 @@ struct RigidContact {
     float reach = 0;                                        // units they were sought in
     Vec2f normal;                                           // in A's frame, from A to B
     Vec2f onA[2], onB[2];                                   // in the frames of their bodies
-    float separation[2] = {0, 0};                           // units, when last looked at
+    float separation[2] = {0, 0};                           // units, when last looked at; at least, without points
     float impulse[2] = {0, 0}, tangentImpulse[2] = {0, 0};  // of the last substep, mass units / s
     float stepImpulse = 0;                                  // greatest of the step in which they began to touch
     bool due = true;                                        // to be looked at in the next step in any case
@@ -73,8 +73,20 @@ struct RigidContact {
         if (count == 0) return 3e38F;
         return count > 1 && separation[1] < separation[0] ? separation[1] : separation[0];
     }
-    std::uint64_t key() const { return (static_cast<std::uint64_t>(partA) << 32) | partB; }
+    static std::uint64_t keyOf(Index partA, Index partB)
+    {
+        return (static_cast<std::uint64_t>(std::min(partA, partB)) << 32) | std::max(partA, partB);
+    }
+    std::uint64_t key() const { return keyOf(partA, partB); }
 };
 static_assert(sizeof(RigidContact) == 128);
+
+/// When a contact without points has to be looked at again; in a list of its own, as most of them are far from it.
+struct Nearing {
+    double until = -1;  // units both bodies' ways may have grown to; below 0: as soon as one of them moves
+    Index bodyA = 0, bodyB = 0;
+    float slop = 0;
+    float thin = 0;  // units a step: what moves farther against the other may pass through it
+};
 
 }  // namespace jet::physics

@@ -69,11 +69,18 @@ float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& 
     return t / dtf;
 }
 
+/// Can the contact's bodies not come together fast enough for a hit? As a cheap bound.
+bool Collider::isSlow(Index contact) const
+{
+    const Nearing& n = nearing_[contact];
+    return 4 * (poses_[n.bodyA].travel + poses_[n.bodyB].travel) < n.thin;
+}
+
 bool Collider::hits(const RigidContact& c, double dt) const
 {
     if (c.foreseen) return true;
     // What overlaps from a hit before is hit again.
-    if (!fast_ || c.nearest() > 0) return false;
+    if (!fast_ || c.nearest() > 0 || isSlow(static_cast<Index>(&c - contacts_.data()))) return false;
     return closingSpeed(c) * static_cast<float>(dt) > kFast * std::min(parts_[c.partA].length, parts_[c.partB].length);
 }
 
@@ -83,8 +90,9 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     bool grew = false;
     for (Index i = 0; i < contacts_.size(); ++i) {
         const RigidContact& c = contacts_[i];
-        if (places_[i] == kFree || !c.resolve || c.count == 0) continue;
+        if (!isPlaced(places_[i]) || !c.resolve || c.count == 0) continue;
         const float surprised = std::max(surprise_[c.bodyA], surprise_[c.bodyB]);
+        if (surprised == 0 && !c.foreseen && isSlow(i)) continue;
         const bool hit = hits(c, dt);
         if (!hit && surprised == 0) continue;
         const float travel = std::max(hit ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
@@ -117,6 +125,7 @@ bool Collider::surprise(Index index, float gain, double dt)
     surprised_ = true;
     surprise_[index] = gain;
     drift_[index] = 1e30F;
+    noteReached(index);
     for (Index p = 0; p < body.partCount; ++p)
         fitBox(body.firstPart + p, poses_[index], std::max(room_[index], 0.0F) + gain, dt);
     sweep_.noteMoves();
@@ -160,21 +169,23 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
 {
     allowed.assign(bodies_.size(), 1.0F);
     if (contacts_.empty()) return;
+    bool any = false;
+    for (Index i = 1; i < bodies_.size(); ++i) {
+        if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
+        any |= allowed[i] < 1;
+    }
     // What another moving body has hit must give way to it.
-    std::vector<std::uint8_t> driven(bodies_.size(), 0);
-    for (Index i = 0; i < contacts_.size(); ++i) {
+    for (Index i = 0; any && i < contacts_.size(); ++i) {
         const RigidContact& c = contacts_[i];
         if (places_[i] == kFree || c.count == 0) continue;
-        if (poses_[c.bodyA].travel > 0 && poses_[c.bodyB].travel > 0) driven[c.bodyA] = driven[c.bodyB] = 1;
+        if (poses_[c.bodyA].travel > 0 && poses_[c.bodyB].travel > 0) allowed[c.bodyA] = allowed[c.bodyB] = 1;
     }
-    for (Index i = 1; i < bodies_.size(); ++i)
-        if (bodies_[i].moves && driven[i] == 0) allowed[i] = withinBox(i, moves[i], dt);
     for (Index i = 0; i < contacts_.size(); ++i) {
+        const Nearing& n = nearing_[i];
+        const Vec2 relativeMove = moves[n.bodyB] - moves[n.bodyA];
+        if (!(relativeMove.squaredNorm() > static_cast<double>(n.thin) * static_cast<double>(n.thin))) continue;
         const RigidContact& c = contacts_[i];
         if (places_[i] == kFree || !c.resolve) continue;
-        const Vec2 relativeMove = moves[c.bodyB] - moves[c.bodyA];
-        const float thinner = kFast * std::min(parts_[c.partA].thickness, parts_[c.partB].thickness);
-        if (!(relativeMove.squaredNorm() > thinner * thinner)) continue;
         if (fromBehind(c)) continue;
         if (c.nearest() <= 0) {
             const float part = c.count > 0 ? untilCentrePasses(c, relativeMove) : 1.0F;

@@ -80,8 +80,9 @@ Manifold betweenPoints(Vec2f a, Vec2f b, float radiusA, float radiusB, const Rel
     Manifold m;
     const Vec2f apart = b - a;
     const float squared = dot(apart, apart), radius = radiusA + radiusB;
-    if (squared > (radius + reach) * (radius + reach)) return m;
     const float length = std::sqrt(squared);
+    m.gap = length - radius;
+    if (squared > (radius + reach) * (radius + reach)) return m;
     m.normal = length > 1e-12F ? (1 / length) * apart : fallback;
     m.count = 1;
     m.points[0] = pointOf(a + radiusA * m.normal, b - radiusB * m.normal, at, length - radius, featureA, featureB);
@@ -99,6 +100,7 @@ Manifold withPoint(const A& a, float radiusA, Vec2f b, float radiusB, const Rela
         if (s > separation) separation = s, best = i;
     }
     Manifold m;
+    m.gap = separation - radiusA - radiusB;
     if (separation > reach + radiusA + radiusB) return m;
     const Vec2f v1 = a.corners[best], v2 = a.corners[(best + 1) % a.count], normal = a.normals[best];
     if (separation > 1e-7F) {
@@ -164,9 +166,12 @@ static Manifold sides(const Part& a, const Placed& b, const Relative& at, float 
     float separationA = 0, separationB = 0;
     int sideA = farthestSide(a, b, separationA);
     const float radius = a.radius + b.radius;
-    if (separationA > reach + radius) return {};
+    Manifold none;
+    none.gap = separationA - radius;
+    if (separationA > reach + radius) return none;
     int sideB = farthestSide(b, a, separationB);
-    if (separationB > reach + radius) return {};
+    none.gap = separationB - radius;
+    if (separationB > reach + radius) return none;
     // A prefers its own sides, so that the choice does not change from step to step.
     const bool flipped = separationB > separationA + 1e-3F * std::min(a.length, 1e6F);
     if (flipped) {
@@ -182,9 +187,12 @@ static Manifold sides(const Part& a, const Placed& b, const Relative& at, float 
         // other whose corners lie opposite; they meet at both ends at once.
         const Nearest n = nearestOfSegments(a1, a2, b1, b2);
         const bool cornerA = n.alongA == 0 || n.alongA == 1, cornerB = n.alongB == 0 || n.alongB == 1;
-        if (cornerA && cornerB && dot(n.onB - n.onA, n.onB - n.onA) > 1.001F * separation * separation)
-            return betweenPoints(n.onA, n.onB, a.radius, b.radius, at, reach, a.normals[sideA],
-                                 n.alongA == 0 ? sideA : nextA, n.alongB == 0 ? sideB : nextB);
+        if (cornerA && cornerB && dot(n.onB - n.onA, n.onB - n.onA) > 1.001F * separation * separation) {
+            Manifold m = betweenPoints(n.onA, n.onB, a.radius, b.radius, at, reach, a.normals[sideA],
+                                       n.alongA == 0 ? sideA : nextA, n.alongB == 0 ? sideB : nextB);
+            m.gap = separation - radius;  // other corners may be nearer
+            return m;
+        }
     }
     if (flipped)
         return clip(b1, b2, b.normals[sideB], b.radius, a1, a2, a.radius, at, reach, true,

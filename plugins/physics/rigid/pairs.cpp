@@ -1,6 +1,9 @@
 #include "pairs.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 
 namespace jet::physics {
 
@@ -80,40 +83,81 @@ void KeySet::grow()
     }
 }
 
-void PairSweep::resize(std::size_t parts)
+void PairSweep::resize(std::size_t parts, float typical)
 {
-    for (std::size_t part = order_.size(); part < parts; ++part) order_.push_back(static_cast<Index>(part));
-    boxes_.resize(parts);
+    if (typical_ != typical) std::fill(keys_.begin(), keys_.end(), kUnknown);
+    typical_ = typical;
+    if (boxes_.size() == parts) return;
+    for (std::size_t part = sorted_.size(); part < parts; ++part) sorted_.push_back({0, static_cast<Index>(part)});
+    boxes_.resize(parts), before_.resize(parts, kNowhere);
     if (moved_.size() < parts) anyMoved_ = true;
-    moved_.resize(parts, 1);
-    keys_.resize(parts);
-    for (auto* list : {&minX_, &minY_, &maxX_, &maxY_}) list->resize(parts + 8);
-    sortedMoved_.assign(parts + 8, 0);
-    for (std::size_t k = 0; k < 8; ++k) minX_[parts + k] = std::numeric_limits<float>::infinity();
+    moved_.resize(parts, 1), pieceOf_.resize(parts, 0);
+    keys_.resize(parts, kUnknown);
+    for (auto* list : {&minX_, &minY_, &maxX_, &maxY_}) list->resize(parts + 4);
+    for (std::size_t k = 0; k < 4; ++k) minX_[parts + k] = std::numeric_limits<float>::infinity();
+}
+
+void PairSweep::setLong(Index part)
+{
+    if (pieceOf_[part] != 0) return;
+    pieceOf_[part] = static_cast<Index>(pieces_.size());
+    pieces_.emplace_back();
+}
+
+bool PairSweep::meetsPieces(Index part, const FatBox& box) const
+{
+    const auto& pieces = pieces_[pieceOf_[part]];
+    return std::any_of(pieces.begin(), pieces.end(), [&](const FatBox& piece) { return piece.meets(box); });
+}
+
+std::uint64_t PairSweep::rowOf(float y, float height)
+{
+    constexpr double kMost = 1 << 27;
+    return static_cast<std::uint64_t>(
+        std::clamp(std::floor(static_cast<double>(y) / static_cast<double>(height)), -kMost, kMost) + kMost);
+}
+
+std::uint64_t PairSweep::keyOf(int which, std::uint64_t row, float x)
+{
+    return static_cast<std::uint64_t>(which) << 61 | row << 32 | ordered(x);
+}
+
+std::uint64_t PairSweep::keyOf(const FatBox& box) const
+{
+    const float extent = 1.001F * std::max(box.maxX - box.minX, box.maxY - box.minY);
+    int which = 0;
+    while (which < kClasses - 1 && !(extent <= rowHeight(which))) ++which;
+    return keyOf(which, rowOf(box.minY, rowHeight(which)), box.minX);
 }
 
 /// The order hardly changes between sweeps: insertion moves little. A scene that was thrown about is sorted afresh.
 void PairSweep::sort()
 {
-    const std::size_t count = order_.size();
-    for (std::size_t i = 0; i < count; ++i)
-        keys_[i] = static_cast<std::uint64_t>(ordered(boxes_[order_[i]].minX)) << 32 | order_[i];
+    const std::size_t count = sorted_.size();
+    for (Index part = 0; part < count; ++part)
+        if (moved_[part] != 0 || keys_[part] == kUnknown) keys_[part] = keyOf(boxes_[part]);
+    for (Entry& entry : sorted_) entry.key = keys_[entry.part];
     std::size_t moves = 0;
-    for (std::size_t i = 1; i < count && moves < 8 * count; ++i) {
-        const std::uint64_t key = keys_[i];
+    for (std::size_t i = 1; i < count && moves < 16 * count; ++i) {
+        const Entry entry = sorted_[i];
         std::size_t at = i;
-        for (; at > 0 && keys_[at - 1] > key; --at) keys_[at] = keys_[at - 1];
-        keys_[at] = key;
+        for (; at > 0 && entry < sorted_[at - 1]; --at) sorted_[at] = sorted_[at - 1];
+        sorted_[at] = entry;
         moves += i - at;
     }
-    if (moves >= 8 * count) std::sort(keys_.begin(), keys_.end());
+    if (moves >= 16 * count) std::sort(sorted_.begin(), sorted_.end());
     for (std::size_t i = 0; i < count; ++i) {
-        const auto part = static_cast<Index>(keys_[i]);
-        order_[i] = part;
-        const FatBox& box = boxes_[part];
+        const FatBox& box = boxes_[sorted_[i].part];
         minX_[i] = box.minX, maxX_[i] = box.maxX, minY_[i] = box.minY, maxY_[i] = box.maxY;
-        sortedMoved_[i] = moved_[part];
     }
+    for (int which = 0; which <= kClasses; ++which)
+        classes_[which] = which == kClasses ? count : firstFrom(static_cast<std::uint64_t>(which) << 61);
+}
+
+std::size_t PairSweep::firstFrom(std::uint64_t key) const
+{
+    const auto before = [](const Entry& entry, std::uint64_t wanted) { return entry.key < wanted; };
+    return static_cast<std::size_t>(std::lower_bound(sorted_.begin(), sorted_.end(), key, before) - sorted_.begin());
 }
 
 void PairSweep::finish()
@@ -124,7 +168,7 @@ void PairSweep::finish()
 
 std::size_t PairSweep::bytes() const
 {
-    return boxes_.capacity() * (sizeof(FatBox) + sizeof(Index) + sizeof(std::uint64_t) + 4 * sizeof(float) + 2);
+    return boxes_.capacity() * (2 * sizeof(FatBox) + sizeof(Entry) + sizeof(std::uint64_t) + 4 * sizeof(float) + 1);
 }
 
 }  // namespace jet::physics

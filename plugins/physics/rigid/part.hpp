@@ -64,6 +64,7 @@ struct ManifoldPoint {
 struct Manifold {
     Vec2f normal;  // unit, from A to B, in A's frame
     int count = 0;
+    float gap = 0;  // units they are apart, or more, when there are no points
     ManifoldPoint points[2];
 };
 

@@ -41,7 +41,9 @@ Manifold Collider::meet(const RigidContact& c, const Relative& at, float reach) 
 {
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
     if (a.outline == kNoOutline && b.outline == kNoOutline) return physics::collide(a, b, at, reach);
-    return collideOutlined(a, weld_.outlineOf(a), b, weld_.outlineOf(b), at, reach);
+    Manifold m = collideOutlined(a, weld_.outlineOf(a), b, weld_.outlineOf(b), at, reach);
+    m.gap = 0;  // not known: what is not felt may be near
+    return m;
 }
 
 /// Is one of them behind the other, which is solid from the front only? Nothing stops it there.
@@ -56,7 +58,7 @@ bool Collider::fromBehind(const RigidContact& c) const
     return false;
 }
 
-bool Collider::update(RigidContact& c, double dt) const
+bool Collider::update(RigidContact& c, double dt)
 {
     c.due = false;
     if (!sweep_.box(c.partA).meets(sweep_.box(c.partB))) return false;
@@ -66,15 +68,38 @@ bool Collider::update(RigidContact& c, double dt) const
     const float travel = closingSpeed(c) * static_cast<float>(dt);
     const float reach =
         kSpeculative * c.slop + std::min(travel, kFast * shorter) + surprise_[c.bodyA] + surprise_[c.bodyB];
+    if (staysApart(c, at, kSpeculative * c.slop + travel + surprise_[c.bodyA] + surprise_[c.bodyB])) return true;
     if (!reuse(c, at, reach)) {
-        if ((travel > 0.1F * shorter || c.count == 0) && apart(c.partA, c.partB) && apart(c.partB, c.partA))
+        if ((travel > 0.1F * shorter || c.count == 0) && isLonger(c.partA, c.partB) && apart(c.partA, c.partB) &&
+            apart(c.partB, c.partA))
             return false;
-        renew(c, meet(c, at, reach), at, reach);
+        const Manifold m = meet(c, at, reach);
+        renew(c, m, at, reach);
+        noteGap(c, m.count == 0 ? m.gap : 0);
         if (c.count > 0 && c.nearest() > 0 && travel > kFast * shorter) c.count = 0;
         if (c.count == 0 && c.resolve && travel > kFast * shorter) foresee(c, at, dt);
         decideSide(c);
     }
     return true;
+}
+
+/// Is a pair without points farther apart than `reach`, after what it has moved since it was last looked at?
+bool Collider::staysApart(const RigidContact& c, const Relative& at, float reach)
+{
+    if (c.count > 0 || c.passing) return false;
+    const Vec2f moved = at.move - c.at.move, turned = at.turn - c.at.turn;
+    const float gap =
+        c.separation[0] - std::sqrt(dot(moved, moved)) - std::sqrt(dot(turned, turned)) * parts_[c.partB].reach;
+    if (!(gap > reach)) return false;
+    noteGap(c, gap);
+    return true;
+}
+
+/// The bodies are `gap` apart, or farther: they need not be looked at before they can have come that far.
+void Collider::noteGap(const RigidContact& c, float gap)
+{
+    nearing_[static_cast<std::size_t>(&c - contacts_.data())].until =
+        way_[c.bodyA] + way_[c.bodyB] + static_cast<double>(gap - kSpeculative * c.slop);
 }
 
 float Collider::hitSpeed(const RigidContact& c) const
@@ -110,6 +135,7 @@ void Collider::renew(RigidContact& c, const Manifold& m, const Relative& at, flo
     c.foreseen = false;
     c.count = static_cast<std::uint8_t>(m.count);
     c.normal = m.normal;
+    if (m.count == 0) c.separation[0] = m.gap;
     for (int i = 0; i < m.count; ++i) {
         const ManifoldPoint& p = m.points[i];
         c.onA[i] = p.onA, c.onB[i] = p.onB, c.ids[i] = p.id, c.separation[i] = p.separation;

@@ -200,9 +200,9 @@ void RigidStage::stir(State& state, Index handle)
         if (collider_.bodies()[other].asleep) wakeGroup(state, group_[other]);
     };
     for (Index i = 0; i < collider_.places().size(); ++i) {
-        RigidContact& c = collider_.contacts()[i];
+        const RigidContact& c = collider_.contacts()[i];
         if (collider_.places()[i] != kAsleep || (c.bodyA != body && c.bodyB != body)) continue;
-        c.due = true;
+        collider_.markDue(i);
         collider_.places()[i] = kIdle;
         if (c.resolve && c.count > 0) wakeBody(c.bodyA == body ? c.bodyB : c.bodyA);
     }

@@ -304,6 +304,7 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         nodes.omega[body.node] = static_cast<double>(s.omega);
         nodes.position[body.node] += part * moves_[i];
         const double turn = part * turns_[i];
+        collider_.travelled(i, part * moves_[i].norm() + std::abs(turn) * static_cast<double>(body.reach));
         if (turn == 0) continue;
         nodes.angle[body.node] += turn;
         nodes.rotation[body.node] = direction(nodes.angle[body.node]);
@@ -371,6 +372,12 @@ void RigidStage::finish(State& state, bool bounce)
         exchange(state, true);
     }
     double_.finish(collider_, joints_);
+    for (Index i = 1; i < collider_.bodies().size(); ++i) {
+        const RigidBody& body = collider_.bodies()[i];
+        const double turn = state.nodes.angle[body.node] - startAngle_[i];
+        collider_.travelled(i, (state.nodes.position[body.node] - start_[i]).norm() +
+                                   std::abs(turn) * static_cast<double>(body.reach));
+    }
     noteTouches(double_.changes());
     breakJoints();
 }

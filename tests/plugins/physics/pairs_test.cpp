@@ -1,0 +1,106 @@
+// The broad phase finds each pair of boxes that comes to meet, whatever their sizes and wherever they are.
+#include "rigid/pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace jet::physics::test {
+
+namespace {
+
+using Pairs = std::set<std::pair<Index, Index>>;
+
+FatBox around(double x, double y, double width, double height)
+{
+    return {static_cast<float>(x - width / 2), static_cast<float>(y - height / 2), static_cast<float>(x + width / 2),
+            static_cast<float>(y + height / 2)};
+}
+
+Pairs meeting(const std::vector<FatBox>& boxes)
+{
+    Pairs pairs;
+    for (Index a = 0; a < boxes.size(); ++a)
+        for (Index b = a + 1; b < boxes.size(); ++b)
+            if (boxes[a].meets(boxes[b])) pairs.insert({a, b});
+    return pairs;
+}
+
+struct Found {
+    Pairs fresh, again;
+};
+
+Found sweep(PairSweep& pairs)
+{
+    Found found;
+    pairs.sweep([&](Index a, Index b, bool met) {
+        EXPECT_TRUE((met ? found.again : found.fresh).insert({a, b}).second);
+    });
+    return found;
+}
+
+/// Sizes over five decades, some far out, many moved, many not.
+TEST(Pairs, WhatComesToMeetIsFoundOnceAndNothingElse)
+{
+    std::mt19937 random(7);
+    const auto in = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
+    const auto anyBox = [&] {
+        const double size = std::pow(10, in(-2, 3)), far = in(0, 1) < 0.05 ? 1e7 : 300;
+        return around(in(-far, far), in(-far, far), size * in(0.2, 1), size * in(0.2, 1));
+    };
+    PairSweep pairs;
+    std::vector<FatBox> boxes(500);
+    pairs.resize(boxes.size(), 1);
+    for (Index i = 0; i < boxes.size(); ++i) pairs.move(i, boxes[i] = anyBox());
+    EXPECT_EQ(sweep(pairs).fresh, meeting(boxes));
+    for (int round = 0; round < 60; ++round) {
+        const Pairs before = meeting(boxes);
+        for (Index i = 0; i < boxes.size(); ++i) {
+            if (in(0, 1) < 0.7) continue;
+            if (in(0, 1) < 0.1) {
+                boxes[i] = anyBox();
+            } else {
+                const float x = static_cast<float>(in(-5, 5)), y = static_cast<float>(in(-5, 5));
+                boxes[i].minX += x, boxes[i].maxX += x, boxes[i].minY += y, boxes[i].maxY += y;
+            }
+            pairs.move(i, boxes[i]);
+        }
+        pairs.noteMoves();
+        Pairs fresh;
+        const Pairs now = meeting(boxes);
+        std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::inserter(fresh, fresh.end()));
+        const Found found = sweep(pairs);
+        EXPECT_EQ(found.fresh, fresh) << round;
+        for (const auto& pair : found.again) EXPECT_TRUE(before.contains(pair) && now.contains(pair));
+        EXPECT_FALSE(pairs.anyMoved());
+    }
+}
+
+TEST(Pairs, OnlyWhatMeetsAPieceOfALongPartMeetsIt)
+{
+    PairSweep pairs;
+    pairs.resize(4, 1);
+    pairs.setLong(0);
+    pairs.move(0, {0, 0, 100, 100});  // a wall along the diagonal
+    for (int i = 0; i < 50; ++i) pairs.piecesOf(0)->push_back(around(2 * i + 1, 2 * i + 1, 3, 3));
+    pairs.move(1, around(30, 31, 1, 1));
+    pairs.move(2, around(80, 20, 1, 1));
+    pairs.move(3, around(52, 53, 2, 2));
+    std::set<std::pair<Index, Index>> found;
+    const auto note = [&](Index a, Index b, bool met) {
+        EXPECT_FALSE(met) << "pieces are always looked at afresh";
+        found.insert({a, b});
+    };
+    pairs.sweep(note);
+    EXPECT_EQ(found, (Pairs{{0, 1}, {0, 3}}));
+    found.clear();
+    pairs.move(2, around(80, 79, 1, 1));
+    pairs.sweep(note);
+    EXPECT_EQ(found, (Pairs{{0, 2}})) << "from the other side, too";
+}
+
+}  // namespace
+
+}  // namespace jet::physics::test
