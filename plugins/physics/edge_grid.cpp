@@ -58,14 +58,14 @@ void EdgeGrid::sortIntoCells()
     };
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         cells_[i] = cellsOf(edges_[i].a.cwiseMin(edges_[i].b), edges_[i].a.cwiseMax(edges_[i].b));
-        forEachCell(i, [&](std::size_t cell) { ++firstEntry_[cell + 1]; });
+        forEachCell(i, [&](std::size_t cell) { ++firstEntry_[cell]; });
     }
     for (std::size_t cell = 0; cell < cellCount; ++cell) firstEntry_[cell + 1] += firstEntry_[cell];
     entries_.resize(firstEntry_.back());
-    // Filling backwards leaves each cell's edges in ascending order and firstEntry_ where it belongs.
-    std::vector<std::uint32_t> next(firstEntry_.begin() + 1, firstEntry_.end());
+    // firstEntry_ holds where cells end: filling backwards leaves each cell's edges in ascending order, and there where
+    // it starts.
     for (std::size_t i = edges_.size(); i-- > 0;)
-        forEachCell(i, [&](std::size_t cell) { entries_[--next[cell]] = static_cast<std::uint32_t>(i); });
+        forEachCell(i, [&](std::size_t cell) { entries_[--firstEntry_[cell]] = static_cast<std::uint32_t>(i); });
 }
 
 /// A ray from a reference point towards +x is cut by an edge right of it: each cut flips the references left of it.

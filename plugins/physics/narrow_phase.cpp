@@ -18,7 +18,7 @@ constexpr double kShallow = 0.5;  // of the body's length: deeper inside, the ne
 
 NarrowPhase::NarrowPhase(const State& state, const std::vector<Motion>& motions, std::span<const ContactPoint> previous,
                          double dt)
-    : state_(state), motions_(motions), previous_(previous), dt_(dt)
+    : state_(state), motions_(motions), previous_(previous), dt_(dt), candidates_(state.scratch.candidates)
 {
 }
 

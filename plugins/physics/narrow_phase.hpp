@@ -53,7 +53,7 @@ private:
     const BodyRecord* a_ = nullptr;
     const BodyRecord* b_ = nullptr;
     const std::vector<Vec2>* frame_ = nullptr;
-    std::vector<Index> candidates_;
+    std::vector<Index>& candidates_;
 };
 
 }  // namespace jet::physics

@@ -1,5 +1,7 @@
 #include "soft_springs.hpp"
 
+#include "room.hpp"
+
 #include <array>
 #include <limits>
 #include <memory>
@@ -61,7 +63,11 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
     mesh.nodes = state.bodies[body].nodes;
     mesh.springs = {springCount(), static_cast<Index>(def.springs.size())};
     for (const SpringDef& spring : def.springs) mesh.tears |= spring.tearRatio > 0;
+    const std::size_t count = def.springs.size();
+    makeRoom(count, a_, b_, rest_, ks_, kd_, alive_);
+    if (!drawn_.empty()) makeRoom(count, drawn_);
     if (mesh.tears) tear_.resize(a_.size(), 0);
+    if (mesh.tears || !tear_.empty()) makeRoom(count, tear_);
     for (const SpringDef& spring : def.springs) {
         a_.push_back(nodeOf[spring.a]);
         b_.push_back(nodeOf[spring.b]);
@@ -259,6 +265,7 @@ void SoftSprings::measureBias(const State& state, Mesh& mesh)
     const auto place = [&](Index node, int axis) {
         return static_cast<float>(state.nodes.position[node][axis] - origin[axis]);
     };
+    mesh.bias.reserve(mesh.springs.count);
     for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
         const Index low = std::min(a_[i], b_[i]), high = std::max(a_[i], b_[i]);
         const float x = place(low, 0) - place(high, 0), y = place(low, 1) - place(high, 1);

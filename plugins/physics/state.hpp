@@ -104,7 +104,7 @@ struct BodyReadings {
 
 /// Room that is used again each step. Not thread-local: a destructor of a thread would keep the library in memory.
 struct Scratch {
-    std::vector<Index> order;
+    std::vector<Index> order, candidates;
     std::vector<EdgeGrid::Edge> edges;
     std::vector<Vec2> gradient;
 };

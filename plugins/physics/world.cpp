@@ -2,6 +2,7 @@
 
 #include "border.hpp"
 #include "outline.hpp"
+#include "room.hpp"
 #include "validation.hpp"
 
 #include <numeric>
@@ -72,6 +73,11 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     BodyRecord& body = newBody(def.common, false);
     const auto count = static_cast<Index>(def.particles.size());
     body.nodes.count = body.points.count = count;
+    Nodes& nodes = state_.nodes;
+    makeRoom(count, nodes.position, nodes.velocity, nodes.angle, nodes.omega, nodes.rotation, nodes.mass, nodes.invMass,
+             nodes.invInertia, nodes.force, nodes.torque, nodes.body, stepForces_);
+    Points& points = state_.points;
+    makeRoom(count, points.node, points.local, points.position, points.normal, points.collidable);
     // Points keep the order of the definition; nodes take one that suits the springs.
     const std::vector<Index> particleOf = soft::orderOf(def);
     std::vector<Index> nodeOf(count);
@@ -85,6 +91,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     body.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
     Vec2 centre(0, 0);
     for (Index i = 0; i < count; ++i) centre += def.masses[i] / body.mass * def.particles[i];
+    body.restArms.reserve(count);
     for (Index i : particleOf) body.restArms.push_back(def.particles[i] - centre);
 
     std::vector<std::vector<Index>> rings = def.borders;

@@ -57,6 +57,7 @@ public:
     std::vector<std::vector<std::uint32_t>> borders(BodyHandle body) const override;
 
     void setSettings(const WorldSettings&) override;
+    void setBody(BodyHandle, const BodyCommon&) override;
     void setMass(BodyHandle, double mass) override;
     void setJoint(JointHandle, const JointDef&) override;
     void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio) override;
@@ -71,7 +72,7 @@ public:
     void setMotor(JointHandle, bool driven, double speed) override;
     void setJointTarget(JointHandle, const Vec2& target) override;
     void removeJoint(JointHandle) override;
-    std::span<const ContactEvent> contactEvents() const override { return rigid_.events(); }
+    std::span<const ContactEvent> contactEvents() const override;
     std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter&) const override;
     std::optional<CastHit> shapeCast(const ShapeDef&, const Vec2& way, const QueryFilter&) const override;
     std::vector<BodyHandle> overlapping(const Box&, const QueryFilter&) const override;
@@ -122,6 +123,9 @@ private:
     void nameFeatures(Contact&) const;
     void report();
     void reportContact(const ContactPoint&);
+    void rememberTouches();
+    void tellEvents();
+    double impulseBetween(std::uint64_t pair) const;
 
     /// Bodies may have been added since.
     void keepFreeInverse()
@@ -169,6 +173,9 @@ private:
     bool pushed_ = false;              // is any of them not null?
     std::vector<Contact> reports_;
     std::vector<std::uint64_t> touching_;  // sorted pairs of handles, the smaller one high
+    std::vector<std::uint64_t> touchedBefore_;
+    std::vector<ContactEvent> events_;
+    bool watched_ = false, eventsTold_ = false;  // did somebody ask for events; are they those of the last step?
     StepStats stats_;
     std::vector<Index> islands_;  // [bodies] kNone: none, or asleep
     bool islandsKnown_ = false;   // are they those of the last step?

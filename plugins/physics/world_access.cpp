@@ -147,6 +147,7 @@ void World::archive(Self& self, Archive& with)
         SoftMatter& matter = body.matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
+        if (!body.rigid) with(body.material), with(body.gravityScale), with(body.sensor), with(body.layer);
     }
     self.archivePins(with);
     with(self.stepForces_);
@@ -204,7 +205,8 @@ void World::restore(std::span<const std::byte> bytes)
     finder_.exclude(softJoints_.excluded());
     queries_.outdate();
     rate_ = -1;
-    stale_ = untold_ = islandsKnown_ = false;
+    stale_ = untold_ = islandsKnown_ = eventsTold_ = false;
+    touchedBefore_ = touching_;  // what was restored began before
     updatePoints(state_);
     updateReadings(state_);
 }

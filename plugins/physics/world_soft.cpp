@@ -75,6 +75,20 @@ void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
     softBody(handle).matter = matter;
 }
 
+void World::setBody(BodyHandle handle, const BodyCommon& common)
+{
+    requireBelow("body", handle, bodyCount());
+    BodyRecord& body = state_.bodies[handle];
+    if (body.rigid) return PhysicsWorld::setBody(handle, common);
+    validate(common, settings_);
+    if (common.fixed != body.fixed)
+        throw Failure(Error("Physics: body " + std::to_string(handle) +
+                            " cannot become fixed or free while the world runs; pin its particles instead."));
+    body.material = common.material, body.gravityScale = common.gravityScale;
+    body.sensor = common.sensor, body.layer = common.layer;
+    queries_.outdate();
+}
+
 void World::setSprings(BodyHandle handle, double ks, double kd, double tearRatio)
 {
     softBody(handle);

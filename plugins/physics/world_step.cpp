@@ -35,6 +35,7 @@ void World::step(double dt)
 {
     requireFinite("the time step", {dt});
     if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
+    rememberTouches();
     if (skipStep()) return;
     stats_ = StepStats();
     islandsKnown_ = false;

@@ -6,15 +6,20 @@
 //       saved at step N / 4: the same future in the same world and in a new one
 //   jet-physics-check soak MINUTES [SCENE...]
 //       simulated time; nothing may become NaN, escape or take more memory
+//   jet-physics-check growth
+//       what a step costs with 1,000 to 100,000 particles; it may grow as n log n does
 //
 // A scene is a name of jet-bench-physics or a file.
 #include "bench/physics/engines.hpp"
+#include "bench/physics/scene_soft.hpp"
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <stdexcept>
 
@@ -97,8 +102,9 @@ int soak(const Scene& scene, double minutes)
         for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
             const Pose pose = engine->pose(body);
             bad += !std::isfinite(pose.position.x + pose.position.y + pose.angle);
-            out += pose.position.x < scene.bounds[0] || pose.position.y < scene.bounds[1] ||
-                   pose.position.x > scene.bounds[2];
+            out += scene.bodies[body].type == SceneBody::Type::Dynamic &&
+                   (pose.position.x < scene.bounds[0] || pose.position.y < scene.bounds[1] ||
+                    pose.position.x > scene.bounds[2]);
         }
         late = heapInUse();
         if (early == 0) early = late;
@@ -111,12 +117,60 @@ int soak(const Scene& scene, double minutes)
     return static_cast<double>(late) > 1.02 * static_cast<double>(early) + 65536 ? 1 : 0;
 }
 
+double processorMs()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Median of the steps in the second second: balls have met, and rest has not set in.
+double costOfStep(const Scene& scene)
+{
+    const auto engine = makeJet(scene, {});
+    advance(*engine, scene, 60);
+    std::vector<double> times;
+    for (int i = 0; i < 60; ++i) {
+        const double start = processorMs();
+        engine->step(scene.dt);
+        times.push_back(processorMs() - start);
+    }
+    std::nth_element(times.begin(), times.begin() + 30, times.end());
+    return times[30];
+}
+
+/// Caches end somewhere between the sizes: up to so many times what n log n says is taken for that.
+constexpr double kCacheFactor = 2.5;
+
+int growth(const char* name, const std::vector<Scene>& scenes)
+{
+    double first = 0, last = 0;
+    for (const Scene& scene : scenes) {
+        const auto particles = static_cast<double>(scene.bodies.size());
+        const double cost = costOfStep(scene);
+        last = cost / (particles * std::log2(particles));
+        if (first == 0) first = last;
+        std::printf("%-12s %7.0f particles  %9.3f ms a step  %6.1f ns a particle  %5.2f of n log n\n", name, particles,
+                    cost, 1e6 * cost / particles, last / first);
+        std::fflush(stdout);
+    }
+    return last > kCacheFactor * first;
+}
+
+int growths()
+{
+    return growth("balls", {softPile(6, 6), softPile(18, 18), softPile(57, 57)}) +
+           growth("sheet", {hangingSheet(32), hangingSheet(100), hangingSheet(316)});
+}
+
 int run(int argc, char** argv)
 {
     const std::string mode = argc > 1 ? argv[1] : "";
+    if (mode == "growth") return growths() > 0;
     if (mode != "hash" && mode != "snapshot" && mode != "soak")
         throw std::runtime_error(
-            "usage: jet-physics-check hash [--plain] [--steps N] | snapshot [--steps N] | soak MINUTES   [SCENE...]");
+            "usage: jet-physics-check hash [--plain] [--steps N] | snapshot [--steps N] | soak MINUTES   [SCENE...] | "
+            "growth");
     int next = 2;
     const double minutes = mode == "soak" ? std::stod(next < argc ? argv[next++] : "10") : 0;
     int steps = kSteps;

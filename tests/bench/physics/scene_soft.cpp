@@ -73,46 +73,52 @@ void addBall(Scene& scene, float x, float y, int group)
 
 }  // namespace
 
-Scene softBalls()
+Scene softPile(int columns, int rows)
 {
     Scene scene;
     scene.steps = 540;
-    scene.bounds = {-14.5, -0.5, 14.5};
+    const double side = 15 + 1.3 * (columns - 10), height = 2.6 * (rows - 10);
+    scene.bounds = {0.5 - side, -0.5, side - 0.5};
     const auto wall = [&](double x, double y, double halfX, double halfY) {
         SceneBody& body = scene.bodies.emplace_back();
         body.type = SceneBody::Type::Static;
         body.position = {x, y};
         body.shapes.emplace_back().half = {halfX, halfY};
     };
-    wall(0, -1, 16, 1);
-    wall(-15, 20, 1, 30);
-    wall(15, 20, 1, 30);
-    for (int row = 0; row < 10; ++row)
-        for (int i = 0; i < 10; ++i)
-            addBall(scene, -11.7F + 2.6F * static_cast<float>(i) + (row % 2 == 1 ? 0.35F : -0.35F),
-                    1.5F + 2.6F * static_cast<float>(row), 10 * row + i + 1);
+    wall(0, -1, side + 1, 1);
+    wall(-side, 20 + height, 1, 30 + height);
+    wall(side, 20 + height, 1, 30 + height);
+    for (int row = 0; row < rows; ++row)
+        for (int i = 0; i < columns; ++i)
+            addBall(scene,
+                    -11.7F - 1.3F * static_cast<float>(columns - 10) + 2.6F * static_cast<float>(i) +
+                        (row % 2 == 1 ? 0.35F : -0.35F),
+                    1.5F + 2.6F * static_cast<float>(row), columns * row + i + 1);
     return scene;
 }
 
-Scene softSheet()
+Scene softBalls() { return softPile(10, 10); }
+
+Scene softSheet() { return hangingSheet(100); }
+
+Scene hangingSheet(std::uint32_t side)
 {
-    constexpr std::uint32_t kSide = 100;
     constexpr double kStiffness = 452.071533, kDamping = 0.479662836, kMass = 0.025446903;  // 30 Hz, damping ratio 0.1
     Scene scene;
     scene.steps = 252;
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    for (std::uint32_t i = 0; i < side * side; ++i) {
         scene.bodies.push_back(
-            particle(0.2F * static_cast<float>(i % kSide), -0.2F * static_cast<float>(i / kSide), 0.09F, 1, kMass));
-        if (i < kSide) scene.bodies.back().type = SceneBody::Type::Static;
+            particle(0.2F * static_cast<float>(i % side), -0.2F * static_cast<float>(i / side), 0.09F, 1, kMass));
+        if (i < side) scene.bodies.back().type = SceneBody::Type::Static;
     }
     const auto spring = [&](std::uint32_t a, std::uint32_t b) { join(scene, a, b, kStiffness, kDamping); };
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-        const bool right = i % kSide + 1 < kSide, below = i / kSide + 1 < kSide;
-        if (right && i >= kSide) spring(i, i + 1);
-        if (below) spring(i, i + kSide);
-        if (right && below) spring(i, i + kSide + 1), spring(i + 1, i + kSide);
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const bool right = i % side + 1 < side, below = i / side + 1 < side;
+        if (right && i >= side) spring(i, i + 1);
+        if (below) spring(i, i + side);
+        if (right && below) spring(i, i + side + 1), spring(i + 1, i + side);
     }
-    scene.soft.push_back({0, kSide * kSide, 0});
+    scene.soft.push_back({0, side * side, 0});
     return scene;
 }
 

@@ -318,4 +318,52 @@ TEST(ForceField, AVortexTurnsClockwiseAndARadialFieldPullsToItsCentre)
     }
 }
 
+TEST(SoftMatter, PropertiesOfABodyChangeWhileItMoves)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 98};
+    settings.materialCount = 2;
+    settings.materials.assign(4, {0.5, 0, true});
+    settings.materials[1].collides = settings.materials[2].collides = false;
+    auto world = JetPhysics().createWorld(settings);
+    const BodyHandle low = world->addSoftBody(defaultBall({0, -21}, 20, 40));
+    const BodyHandle high = world->addSoftBody(defaultBall({1, -66}, 20, 40));
+    world->addRigidBody(ground(0));
+    world->addRigidBody(fixed({boxRing({-75, -100}, 100, 400), boxRing({75, -100}, 100, 400)}));
+    run(*world, 6);
+    ASSERT_TRUE(world->touching(low, high));
+    const double resting = world->bodies().position[high].y();
+    const auto saved = world->save();
+
+    BodyCommon common;
+    common.gravityScale = -1;
+    world->setBody(high, common);
+    run(*world, 1);
+    EXPECT_LT(world->bodies().position[high].y(), resting - 30) << "it falls up";
+
+    world->restore(saved);
+    run(*world, 1);
+    EXPECT_NEAR(world->bodies().position[high].y(), resting, 0.5) << "what was restored weighs again";
+
+    common = BodyCommon();
+    common.sensor = true;
+    world->setBody(high, common);
+    run(*world, 0.5);
+    EXPECT_GT(world->bodies().position[high].y(), resting + 5) << "sensors are not held";
+    EXPECT_TRUE(world->touching(low, high));
+
+    world->restore(saved);
+    common = BodyCommon();
+    common.material = 1;
+    world->setBody(high, common);
+    run(*world, 0.5);
+    EXPECT_GT(world->bodies().position[high].y(), resting + 5) << "materials that do not collide pass each other";
+    EXPECT_FALSE(world->touching(low, high));
+
+    common.fixed = true;
+    EXPECT_THROW(world->setBody(high, common), Failure);
+    common.fixed = false, common.material = 2;
+    EXPECT_THROW(world->setBody(high, common), Failure);
+}
+
 }  // namespace jet::physics::test

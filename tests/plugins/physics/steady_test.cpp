@@ -1,4 +1,5 @@
 // A world that has come to its rhythm takes no more memory: every `operator new` of this program is counted.
+#include "lattices.hpp"
 #include "shape_worlds.hpp"
 
 #include <atomic>
@@ -74,6 +75,50 @@ TEST(SteadyStep, ASmallStackInDoublePrecisionAllocatesNothing)
 TEST(SteadyStep, AHangingNetAllocatesNothing)
 {
     auto world = netWorld(shapeSettings());
+    EXPECT_EQ(allocationsOf(*world, 60, 300), 0);
+}
+
+/// Balls of springs on each other in a box: contacts between soft bodies and with walls.
+std::unique_ptr<PhysicsWorld> pile(int balls, bool torn)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 98};
+    auto world = JetPhysics().createWorld(settings);
+    for (int i = 0; i < balls; ++i) {
+        SoftBodyDef ball = defaultBall({50.0 * (i % 3) + 7 * (i / 3), -30 - 50.0 * (i / 3)}, 20, 40);
+        ball.matter.thickness = 1;
+        ball.matter.pressure = i % 2 == 0 ? 5 : 0;
+        ball.matter.selfCollision = i % 4 == 1;
+        if (torn)
+            for (SpringDef& spring : ball.springs) spring.tearRatio = 3;
+        world->addSoftBody(ball);
+    }
+    world->addRigidBody(ground(0));
+    world->addRigidBody(fixed({boxRing({-75, -100}, 100, 400), boxRing({190, -100}, 100, 400)}));
+    return world;
+}
+
+TEST(SteadyStep, APileOfSoftBodiesAllocatesNothing)
+{
+    auto world = pile(9, false);
+    EXPECT_EQ(allocationsOf(*world, 900, 300), 0);
+}
+
+TEST(SteadyStep, SoftBodiesThatMayTearAllocateNothingAsLongAsTheyDoNot)
+{
+    auto world = pile(6, true);
+    EXPECT_EQ(allocationsOf(*world, 900, 300), 0);
+}
+
+TEST(SteadyStep, ASwingingSheetAllocatesNothing)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 98};
+    auto world = JetPhysics().createWorld(settings);
+    SoftBodyDef sheet = square({0, 0}, 100);
+    sheet.movable.assign(sheet.particles.size(), 1);
+    sheet.movable[0] = 0;
+    world->addSoftBody(sheet);
     EXPECT_EQ(allocationsOf(*world, 60, 300), 0);
 }
 

@@ -43,6 +43,11 @@ TEST(Teaching, FreeFallIsLateByHalfAStepOfGravity)
         EXPECT_NEAR(pointsOf(*world, 0)[1].y(), 0.5 * 98 * 4 + beyond, 1e-9);
         EXPECT_NEAR(world->bodies().position[1].y(), 0.5 * 98 * 4 + beyond, 1e-9);
         EXPECT_EQ(world->stats().substeps, 1u);
+
+        auto rigidOnly = teachingWorld({0, 98});
+        rigidOnly->addRigidBody(box({500, 0}, 10, 10));
+        for (int i = 0; i < count; ++i) rigidOnly->step(h);
+        EXPECT_NEAR(rigidOnly->bodies().position[0].y(), 0.5 * 98 * 4 + beyond, 1e-9);
     }
 }
 

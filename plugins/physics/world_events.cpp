@@ -1,0 +1,66 @@
+// Which bodies began to touch in the last step, and which ended.
+//
+// Simple rigid bodies have events of their own. Those of others come from the touches that are told anyway, compared
+// with those of the step before. As telling takes time, that is done only once somebody asked for events: the first
+// time all that touch begin.
+#include "world.hpp"
+
+namespace jet::physics {
+
+namespace {
+
+BodyHandle lower(std::uint64_t pair) { return static_cast<BodyHandle>(pair >> 32); }
+BodyHandle higher(std::uint64_t pair) { return static_cast<BodyHandle>(pair & 0xffffffffU); }
+
+}  // namespace
+
+/// Before a step: what touched until now.
+void World::rememberTouches()
+{
+    eventsTold_ = false;
+    if (!watched_) return;
+    reportIfAsked();
+    touchedBefore_ = touching_;
+}
+
+std::span<const ContactEvent> World::contactEvents() const
+{
+    if (complex_ == 0) return rigid_.events();
+    auto& self = const_cast<World&>(*this);  // a cache of what the last step left
+    self.watched_ = true;
+    reportIfAsked();
+    if (!eventsTold_) self.tellEvents();
+    return events_;
+}
+
+void World::tellEvents()
+{
+    eventsTold_ = true;
+    const std::span<const ContactEvent> own = rigid_.events();
+    events_.assign(own.begin(), own.end());
+    const auto counts = [&](std::uint64_t pair) {
+        return !state_.bodies[lower(pair)].simple || !state_.bodies[higher(pair)].simple;
+    };
+    auto before = touchedBefore_.begin();
+    for (const std::uint64_t pair : touching_) {
+        for (; before != touchedBefore_.end() && *before < pair; ++before)
+            if (counts(*before)) events_.push_back({lower(*before), higher(*before), false, 0});
+        const bool known = before != touchedBefore_.end() && *before == pair;
+        if (known) ++before;
+        if (!known && counts(pair)) events_.push_back({lower(pair), higher(pair), true, impulseBetween(pair)});
+    }
+    for (; before != touchedBefore_.end(); ++before)
+        if (counts(*before)) events_.push_back({lower(*before), higher(*before), false, 0});
+}
+
+double World::impulseBetween(std::uint64_t pair) const
+{
+    double impulse = 0;
+    for (const Contact& contact : reports_)
+        if (std::min(contact.bodyA, contact.bodyB) == lower(pair) &&
+            std::max(contact.bodyA, contact.bodyB) == higher(pair))
+            impulse += contact.impulse;
+    return impulse;
+}
+
+}  // namespace jet::physics
