@@ -489,9 +489,11 @@ void ItemsCenter::Private::Links::Follower::syncPath(const Item& to, Path path)
 void ItemsCenter::Private::Links::Follower::syncEffects(const Item& from, const Item& to, const ItemPairs& pairs)
 {
     std::vector<EffectInstance> wanted(from.effects().begin(), from.effects().end());
-    for (EffectInstance& effect : wanted)
-        for (const auto& [id, value] : Properties(effect.properties).entries())
+    for (EffectInstance& effect : wanted) {
+        const Properties before = effect.properties;
+        for (const auto& [id, value] : before.entries())
             if (value.get<ItemId>()) effect.properties.set(id, withCounterparts(value, pairs));
+    }
     std::size_t same = 0;
     while (same < wanted.size() && same < to.effects().size() && wanted[same] == to.effects()[same]) ++same;
     while (to.effects().size() > same) {
