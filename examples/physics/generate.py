@@ -372,8 +372,21 @@ def soft_rigid():
         {"count": "Box *", "inside": [134, 150, 506, 316], "is": 3}], JET_ALONE, picture=300)
 
 
+def sleeping():
+    s = Scene()
+    s.ground()
+    for k in range(6):
+        s.rigid(f"Box {k + 1}", rectangle(480, 305 - 30 * k, 30, 30), [WOOD, GOLD][k % 2])
+    # A quarter of a minute from one side to the other, and still for a while at its turning points.
+    s.fixed("Beam", rectangle(200, 40, 160, 10), STEEL)
+    s.rigid("Pendulum", circle(280, 214, 22), RED, 40, gravity_scale=0.07)
+    s.joint("Pin", line((200, 40), (200, 40), (280, 214)), "revolute")
+    write("sleeping", "Sleeping", s, 1000, [{"item": "Pendulum", "x": [116, 128]}, {"count": "Box *", "inside": [464, 130, 496, 322], "is": 6}],
+          picture=500)
+
+
 DEMOS = {f.__name__: f for f in (stack, joints, motors, platform, bullets, car, soft_balls, gas, plastic, fields, tearing, shape,
-                                breaking, sensors, soft_rigid)}
+                                breaking, sensors, soft_rigid, sleeping)}
 
 if __name__ == "__main__":
     (HERE / "pictures").mkdir(exist_ok=True)
