@@ -13,7 +13,7 @@ constexpr int kBouncePasses = 4;
 // Pairs that move less than so many lengths in a step are looked at again only once they have moved that much further.
 constexpr double kSlowLengths = 0.1, kRoomLengths = 0.04;
 // Contacts that act get new seats once they are spread over this many times the lanes they need, and so many more.
-constexpr double kMostSpread = 1.5, kLeastSpread = 64;
+constexpr double kMostSpread = 1.1, kLeastSpread = 16;
 constexpr std::size_t kSlack = 256;  // touches that are over, and are kept for a while
 constexpr double kLeastSingle = 1e-15, kMostSingle = 1e15;
 
