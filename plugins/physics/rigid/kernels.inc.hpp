@@ -45,7 +45,7 @@ struct MoveLanes {
     Lanes<Real> moveX, moveY, turn, invInertia;
 };
 
-typedef float Four __attribute__((vector_size(16)));
+typedef float Four __attribute__((vector_size(16), may_alias));
 
 /// Rows of four values of eight bodies to four rows of eight: within the halves of a register, as AVX2 shuffles best.
 JET_INLINE void transpose(const Lanes<float> (&c)[4], Lanes<float>& x, Lanes<float>& y, Lanes<float>& z,
@@ -61,6 +61,7 @@ JET_INLINE void transpose(const Lanes<float> (&c)[4], Lanes<float>& x, Lanes<flo
     w = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
+#if defined(__AVX2__)
 JET_INLINE void gather(const BodyState<float>* bodies, const std::int32_t* index, std::size_t half, Lanes<float>& x,
                        Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
 {
@@ -90,6 +91,42 @@ JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, con
             *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
     }
 }
+
+#else
+/// Without registers of eight, shuffles of eight are taken apart value by value; these stay within fours.
+JET_INLINE void transpose(const Four& a, const Four& b, const Four& c, const Four& d, Four (&out)[4])
+{
+    const Four t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5), t1 = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Four t2 = __builtin_shufflevector(c, d, 0, 4, 1, 5), t3 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    out[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5), out[1] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
+    out[2] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5), out[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+}
+
+JET_INLINE void gather(const BodyState<float>* bodies, const std::int32_t* index, std::size_t half, Lanes<float>& x,
+                       Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
+{
+    Lanes<float>* const rows[4] = {&x, &y, &z, &w};
+    for (int side = 0; side < 2; ++side) {
+        const auto of = [&](int i) { return reinterpret_cast<const Four*>(&bodies[index[4 * side + i]])[half]; };
+        Four out[4];
+        transpose(of(0), of(1), of(2), of(3), out);
+        for (int row = 0; row < 4; ++row) reinterpret_cast<Four*>(rows[row])[side] = out[row];
+    }
+}
+
+JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, const BodyLanes<float>& s)
+{
+    for (int side = 0; side < 2; ++side) {
+        const auto of = [&](const Lanes<float>& row) { return reinterpret_cast<const Four*>(&row)[side]; };
+        Four out[4];
+        transpose(of(s.velocityX), of(s.velocityY), of(s.omega), of(s.invMass), out);
+        for (int i = 0; i < 4; ++i) {
+            BodyState<float>& body = bodies[index[4 * side + i]];
+            if (body.invMass != 0) *reinterpret_cast<Four*>(&body) = out[i];
+        }
+    }
+}
+#endif
 
 JET_INLINE void gather(const BodyState<double>* bodies, const std::int32_t* index, std::size_t half, Lanes<double>& x,
                        Lanes<double>& y, Lanes<double>& z, Lanes<double>& w)
