@@ -99,8 +99,9 @@ private:
     {
         for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
             const Pose pose = engine_->pose(i);
-            const double far = std::abs(pose.position.x) + std::abs(pose.position.y);
-            if (!(far < 1e5) || !std::isfinite(pose.angle))
+            const Point& start = scene_.bodies[i].position;
+            const double far = std::abs(pose.position.x - start.x) + std::abs(pose.position.y - start.y);
+            if (!(far < 2000) || !std::isfinite(pose.angle))
                 throw std::runtime_error("it explodes: body " + std::to_string(i) + " is " + std::to_string(far) +
                                          " m away after " + std::to_string(step) + " steps " + phase);
         }
