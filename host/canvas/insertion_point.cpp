@@ -11,8 +11,8 @@ bool receives(const Item* item)
     return item && item->isContainer() && item->parent() && item->editable() && item->shown();
 }
 
-/// The selected container, or the container around the selected item. What is put beside a selected instance of a symbol
-/// does not become a part of the symbol; with something inside of it selected, it does.
+/// The selected container, or the container around the selected item. What is put beside a selected instance of a
+/// symbol does not become a part of the symbol; with something inside of it selected, it does.
 const Item* containerOf(const Item* item)
 {
     if (item && isInstance(*item)) item = item->parent();
