@@ -310,10 +310,10 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
 void Collider::findPairs(const WorldSettings& settings)
 {
     if (!sweep_.anyMoved()) return;
-    // What met before is known already, or is none.
+    // What met before is known already, or is none; but for long parts, whose boxes met before they did.
     found_.clear();
     sweep_.sweep([&](Index a, Index b, bool met) {
-        if (met || known_.contains(RigidContact::keyOf(a, b))) return;
+        if ((met && !isLonger(a, b)) || known_.contains(RigidContact::keyOf(a, b))) return;
         if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
         found_.emplace_back(a, b);
     });

@@ -51,6 +51,29 @@ std::vector<Vec2> starRing(const Vec2& at, double inner, double outer, int tips)
     return ring;
 }
 
+// The box around a slope holds much that the slope itself is far from: what comes down there meets it in time.
+TEST(Ground, WhatSinksTowardsASlopeFromInsideItsBoxIsHeld)
+{
+    for (const bool open : {true, false}) {
+        auto world = makeWorld({0, 40}, 0);
+        world->addRigidBody(ground(open, 10, 40, [](double x) { return std::fmod(x, 80) < 1 ? 0.0 : 16.0; }));
+        std::vector<BodyHandle> balls;
+        for (int valley = 0; valley < 5; ++valley) {
+            RigidBodyDef ball = disc({80.0 * valley + 35, 2}, 5);
+            ball.common.allowSleep = false;
+            balls.push_back(world->addRigidBody(ball));
+        }
+        for (int i = 0; i < 240; ++i) {
+            world->step(kStep);
+            for (const BodyHandle ball : balls) {
+                const Vec2 at = world->bodies().position[ball];
+                const double aside = std::abs(std::fmod(at.x(), 80) - 40);
+                ASSERT_GT((16 - 0.4 * aside - at.y()) / std::hypot(0.4, 1), 4.8) << "open " << open << ", step " << i;
+            }
+        }
+    }
+}
+
 TEST(Ground, ABoxAndABallGlideOverAThousandSegmentsWithoutABump)
 {
     for (const bool open : {true, false}) {
