@@ -337,6 +337,7 @@ protected:
     /// Clicks the check box of a row as a user would.
     void tick(const QString& name)
     {
+        table->scrollTo(row(name));
         const QRect box = table->visualRect(row(name));
         QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, QPoint(box.left() + 10, box.center().y()));
         QApplication::processEvents();
@@ -357,7 +358,7 @@ TEST_F(PluginsPanelTest, TheFilterLooksAtNamesStatesAndContributions)
     const int all = table->model()->rowCount();
     EXPECT_GE(all, 5);
     auto* filter = panel->findChild<QLineEdit*>("pluginFilter");
-    QTest::keyClicks(filter, "rectangle");
+    QTest::keyClicks(filter, "tool.rectangle");
     EXPECT_EQ(table->model()->rowCount(), 1);
     filter->clear();
     QTest::keyClicks(filter, "boxes");
