@@ -162,6 +162,7 @@ int freeze(Session& session, const SetOptions& o)
     }
     const auto plugins = pluginsInUse(session.plugins(), project.get());
     std::vector<std::string> entries;
+    entries.reserve(plugins.size());
     for (const FrozenPlugin& plugin : plugins) entries.push_back(plugin.text());
     const std::string text = setText(title, description, entries);
     if (o.output.empty()) {
