@@ -160,6 +160,7 @@ void ProjectRows::addFiles(QTreeWidgetItem& parent)
     };
     for (const std::string& file : assetFiles(editor_.project())) show(file, true);
     std::vector<std::filesystem::path> rest;  // what lies elsewhere, or nowhere
+    rest.reserve(uses.size());
     for (const auto& [file, count] : uses) rest.push_back(file);
     for (const auto& file : rest) {
         const std::string shown =

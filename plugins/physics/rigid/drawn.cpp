@@ -42,6 +42,7 @@ DrawnPart wallPart(const ChainSide& side, const Vec2& centre, double length)
 std::vector<DrawnPart> wallParts(const std::vector<ChainSide>& sides, const Vec2& centre, double length)
 {
     std::vector<DrawnPart> parts;
+    parts.reserve(sides.size());
     for (const ChainSide& side : sides) parts.push_back(wallPart(side, centre, length));
     return parts;
 }

@@ -151,7 +151,8 @@ std::size_t bridgeEnd(const Mesh& mesh, const std::vector<std::uint32_t>& ring, 
     if (best == count) return count;
     // Corners within the triangle of `from`, the hit and that corner are in the way: the one at the least angle is
     // seen.
-    const Vec2 hit(nearest, from.y()), corner = at(best);
+    const Vec2 hit(nearest, from.y());
+    const Vec2& corner = at(best);
     double least = std::numeric_limits<double>::infinity();
     std::size_t seen = best;
     for (std::size_t i = 0; i < count; ++i) {
