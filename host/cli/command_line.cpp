@@ -215,6 +215,8 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
         if (const auto told = mistypedCommand(app, project)) return *told;
+        const bool anyCommand = !app.get_subcommands().empty();
+        if (problem.get_exit_code() != 0 && !anyCommand && editorProject(app, project)) return kUsage;
         return app.exit(problem) == 0 ? kOk : kUsage;
     }
     global.pluginPath.insert(global.pluginPath.end(), global.watch.begin(), global.watch.end());

@@ -29,6 +29,9 @@ TEST_F(ProjectCommandTest, AWordThatIsNoCommandIsAProjectThatMustExist)
     const Outcome slip = jet("plya");
     EXPECT_EQ(slip.code, 1);
     EXPECT_EQ(slip.err, "plya: error: there is no such project; did you mean the command 'play'?\n");
+    const Outcome more = jet("convret a.svg b.png --width 40");
+    EXPECT_EQ(more.code, 2);
+    EXPECT_EQ(more.err, "convret: error: there is no such project; did you mean the command 'convert'?\n");
     const Outcome inner = jet("plugins lits");
     EXPECT_EQ(inner.code, 2);
     EXPECT_EQ(inner.err,
