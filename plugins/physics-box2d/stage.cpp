@@ -155,7 +155,12 @@ void Stage::setMass(BodyHandle handle, double mass)
     wake(handle);
 }
 
-void Stage::setEnabled(BodyHandle handle, bool enabled) { bodies_[handle].body->SetEnabled(enabled); }
+void Stage::setEnabled(BodyHandle handle, bool enabled)
+{
+    b2Body& body = *bodies_[handle].body;
+    if (!enabled) body.SetLinearVelocity(b2Vec2_zero), body.SetAngularVelocity(0);
+    body.SetEnabled(enabled);
+}
 
 void Stage::setPosition(BodyHandle handle, const Vec2& centre)
 {

@@ -11,10 +11,10 @@ constexpr double kMostTurn = 0.5;
 
 double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(armA, armB), armA.dot(armB)); }
 
-/// Then all that the spring holds sleeps, or stands.
+/// Then all that the spring holds sleeps, or stands; or one of them is switched off, and it holds nothing.
 bool sleeps(const State& state, const AnchorPoint& anchor)
 {
-    return anchor.body != kNone && state.bodies[anchor.body].asleep;
+    return anchor.body != kNone && (state.bodies[anchor.body].asleep || !state.bodies[anchor.body].enabled);
 }
 
 /// The constraint "angle from a to b about the centre"; empty when an arm has no length.
@@ -156,7 +156,7 @@ void Actuators::applySprings(State& state, double h, bool backwards)
 void Actuators::addSpringForces(State& state)
 {
     for (Spring& spring : springs_) {
-        if (!spring.alive) continue;
+        if (!spring.alive || sleeps(state, spring.a) || sleeps(state, spring.b)) continue;
         const Vec2 apart = spring.a.position(state) - spring.b.position(state);
         const double length = apart.norm();
         if (spring.tearLength > 0 && length > spring.tearLength) spring.alive = 0;
@@ -167,6 +167,7 @@ void Actuators::addSpringForces(State& state)
         jacobian.addForce(state, -spring.ks * (length - spring.restLength) - spring.kd * jacobian.rate(state));
     }
     for (AngularSpring& spring : angularSprings_) {
+        if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) continue;
         AnchorJacobian jacobian;
         if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) continue;
         spring.angle += wrapped(angleNow(state, spring.a, spring.centre, spring.b) - spring.angle);

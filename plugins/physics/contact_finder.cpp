@@ -21,6 +21,11 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+bool meetsItself(const BodyRecord& body)
+{
+    return (body.matter.selfCollision || body.pieceCount > 1) && !body.fixed && body.enabled;
+}
+
 ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSettings& settings)
 {
     const MaterialPair& pair =
@@ -113,8 +118,7 @@ void ContactFinder::splitPairs(const State& state, double dt)
         return state.bodies[pair.a].wide && state.bodies[pair.b].wide && isSlow(state, pair, dt);
     };
     for (Index body = 0; body < state.bodies.size(); ++body)
-        if ((state.bodies[body].matter.selfCollision || state.bodies[body].pieceCount > 1) && !state.bodies[body].fixed)
-            pairs_.push_back({body, body});
+        if (meetsItself(state.bodies[body])) pairs_.push_back({body, body});
     const auto joined = [&](const BodyPair& pair) {
         return std::binary_search(excluded_.begin(), excluded_.end(), std::pair(pair.a, pair.b));
     };
@@ -204,6 +208,7 @@ void ContactFinder::predictBody(const State& state, const BodyRecord& body, cons
                                 Motion& motion, double& budget) const
 {
     const Nodes& nodes = state.nodes;
+    if (!body.enabled) return;
     for (Index p = body.points.first; p < body.points.end(); ++p) motion.reach.extend(state.points.position[p]);
     if (body.fixed || body.nodes.count == 0) return;
 

@@ -314,6 +314,7 @@ std::optional<CastHit> Queries::nearest(const State& state, const Vec2& point, d
 
 bool Queries::contains(const State& state, Index body, const Vec2& point) const
 {
+    if (!state.bodies[body].enabled) return false;
     for (Index i = firstItem_[body]; i < items_.size() && items_[i].body == body; ++i)
         if (inside(state, items_[i], frameOf(state, items_[i]).in(point))) return true;
     return false;

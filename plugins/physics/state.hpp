@@ -76,11 +76,14 @@ struct BodyRecord {
     bool wide = false;       // soft: meets its like in soft/contacts.hpp
     bool kinematic = false;  // moves with its velocity, and nothing pushes it
     bool enabled = true;     // may move, meet and be seen
-    bool asleep = false;     // rigid: rests, and is left out until something wakes it
+    bool drives = false;     // kinematic while it is enabled
+    bool fixedRotation = false;
+    bool asleep = false;  // rigid: rests, and is left out until something wakes it
     std::uint32_t layer = 1;
     Index material = 0;
     double gravityScale = 1;
     double mass = 0;
+    double second = 0;    // rigid: moment of inertia of a unit of mass, units²
     double length = 1;    // typical size, scene units: tolerances are fractions of it
     double restArea = 0;  // soft: inside the borders at rest, units²
     SoftMatter matter;

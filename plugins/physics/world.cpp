@@ -26,7 +26,8 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     body.sensor = common.sensor;
     body.material = common.material;
     body.gravityScale = common.gravityScale;
-    body.kinematic = rigid && common.kinematic && !common.fixed;
+    body.drives = body.kinematic = rigid && common.kinematic && !common.fixed;
+    body.fixedRotation = common.fixedRotation;
     body.layer = common.layer;
     body.nodes.first = static_cast<Index>(state_.nodes.size());
     body.points.first = static_cast<Index>(state_.points.size());
@@ -159,11 +160,20 @@ void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def)
     rebuildGrid(state_, body);
 
     const Index node = body.nodes.first;
-    body.mass = def.mass;
+    body.mass = def.mass, body.second = second;
     state_.nodes.position[node] = centre;
-    if (def.common.fixed || def.common.kinematic) return;
-    state_.nodes.invMass[node] = 1 / def.mass;
-    state_.nodes.invInertia[node] = def.common.fixedRotation ? 0 : 1 / (def.mass * second);
+    applyMotion(body);
+}
+
+/// What its node is for the solvers, from what the rigid body is.
+void World::applyMotion(BodyRecord& body)
+{
+    const Index node = body.nodes.first;
+    const bool moves = !body.fixed && !body.drives && body.enabled;
+    body.kinematic = body.drives && body.enabled;
+    state_.nodes.mass[node] = body.mass;
+    state_.nodes.invMass[node] = moves ? 1 / body.mass : 0;
+    state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (body.mass * body.second) : 0;
 }
 
 BodyHandle World::finishBody(const BodyCommon& common)

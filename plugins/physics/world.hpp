@@ -59,6 +59,7 @@ public:
     void setSettings(const WorldSettings&) override;
     void setBody(BodyHandle, const BodyCommon&) override;
     void setMass(BodyHandle, double mass) override;
+    void setEnabled(BodyHandle, bool enabled) override;
     void setJoint(JointHandle, const JointDef&) override;
     void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio) override;
 
@@ -87,6 +88,8 @@ private:
     void addPoint(Index node, const Vec2& local, const Vec2& position);
     BodyHandle finishBody(const BodyCommon&);
     void setRigidMass(BodyRecord&, const RigidBodyDef&);
+    void applyMotion(BodyRecord&);
+    void enableSoft(BodyRecord&);
     BodyRecord& softBody(BodyHandle);
     const BodyRecord& softBody(BodyHandle) const;
     void cutTorn();
@@ -127,25 +130,13 @@ private:
     void tellEvents();
     double impulseBetween(std::uint64_t pair) const;
 
-    /// Bodies may have been added since.
-    void keepFreeInverse()
-    {
-        const auto& inverse = state_.nodes.invMass;
-        freeInverse_.insert(freeInverse_.end(), inverse.begin() + static_cast<std::ptrdiff_t>(freeInverse_.size()),
-                            inverse.end());
-    }
     template <class Archive>
     void archivePins(Archive& with)
     {
-        auto pinned = static_cast<std::uint8_t>(!freeInverse_.empty());
-        with(pinned);
-        if (pinned != 0) {
-            keepFreeInverse();
-            with(state_.nodes.invMass);
-        } else if (!freeInverse_.empty()) {
-            keepFreeInverse();
-            state_.nodes.invMass = std::exchange(freeInverse_, {});
-        }
+        auto any = static_cast<std::uint8_t>(!pinsWhileOff_.empty());
+        with(any);
+        pinsWhileOff_.resize(any != 0 ? state_.nodes.size() : 0, 0);
+        if (any != 0) with(pinsWhileOff_);
     }
     template <class Self, class Archive>
     static void archive(Self& self, Archive& with);
@@ -156,7 +147,7 @@ private:
     ShapeMemory shapes_;
     Actuators actuators_;
     ForceFields fields_;
-    std::vector<double> freeInverse_;  // [nodes] inverse masses without pins; empty: no pin was ever set or drawn
+    std::vector<std::uint8_t> pinsWhileOff_;  // [nodes] pinned particles of bodies that are switched off
     ContactFinder finder_;
     ContactSet contacts_;
     soft::Contacts softContacts_;

@@ -147,7 +147,8 @@ void World::archive(Self& self, Archive& with)
         SoftMatter& matter = body.matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
-        if (!body.rigid) with(body.material), with(body.gravityScale), with(body.sensor), with(body.layer);
+        with(body.material), with(body.gravityScale), with(body.sensor), with(body.layer);
+        with(body.enabled), with(body.kinematic), with(body.drives), with(body.fixedRotation);
     }
     self.archivePins(with);
     with(self.stepForces_);

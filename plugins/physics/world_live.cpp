@@ -1,4 +1,4 @@
-// Changes while the world runs: settings, masses, joints and springs between bodies.
+// Changes while the world runs: settings, bodies, joints and springs between bodies.
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -31,16 +31,78 @@ void World::setMass(BodyHandle handle, double mass)
     BodyRecord& body = state_.bodies[handle];
     Nodes& nodes = state_.nodes;
     const double ratio = mass / body.mass;
-    if (!freeInverse_.empty()) keepFreeInverse();
-    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        nodes.mass[n] *= ratio;
-        nodes.invMass[n] /= ratio, nodes.invInertia[n] /= ratio;
-        if (!freeInverse_.empty()) freeInverse_[n] /= ratio;
-    }
     body.mass = mass;
+    if (body.rigid) {
+        applyMotion(body);
+    } else {
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) nodes.mass[n] *= ratio, nodes.invMass[n] /= ratio;
+    }
     rate_ = -1;
     rigid_.disturb(handle);
     rigid_.wake(state_, handle);
+}
+
+void World::setBody(BodyHandle handle, const BodyCommon& common)
+{
+    requireBelow("body", handle, bodyCount());
+    validate(common, settings_);
+    BodyRecord& body = state_.bodies[handle];
+    if (common.fixed != body.fixed)
+        throw Failure(Error("Physics: body " + std::to_string(handle) +
+                            " cannot become fixed or free while the world runs; " +
+                            (body.rigid ? "make it kinematic" : "pin its particles") + " instead."));
+    reportIfAsked();  // of what it was
+    body.material = common.material, body.gravityScale = common.gravityScale;
+    body.sensor = common.sensor, body.layer = common.layer;
+    if (body.rigid) {
+        body.drives = common.kinematic && !common.fixed, body.fixedRotation = common.fixedRotation;
+        rigid_.stir(state_, handle);
+        rigid_.wake(state_, handle);
+        applyMotion(body);
+        if (body.fixedRotation && !body.drives) state_.nodes.omega[body.nodes.first] = 0;
+        rigid_.set(state_, handle, common);
+        updateReading(state_, handle);
+    }
+    rate_ = -1;
+    queries_.outdate();
+}
+
+void World::setEnabled(BodyHandle handle, bool enabled)
+{
+    requireBelow("body", handle, bodyCount());
+    BodyRecord& body = state_.bodies[handle];
+    if (body.enabled == enabled) return;
+    reportIfAsked();  // of what it was
+    rigid_.stir(state_, handle);
+    rigid_.wake(state_, handle);
+    body.enabled = enabled;
+    Nodes& nodes = state_.nodes;
+    if (!enabled)
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) nodes.velocity[n] = Vec2(0, 0), nodes.omega[n] = 0;
+    if (body.rigid) {
+        applyMotion(body);
+        rigid_.enable(state_, handle, enabled);
+    } else {
+        enableSoft(body);
+    }
+    updateReading(state_, handle);
+    rate_ = -1;
+    queries_.outdate();
+}
+
+/// Switched off it is all pins; they are told from those it has.
+void World::enableSoft(BodyRecord& body)
+{
+    Nodes& nodes = state_.nodes;
+    pinsWhileOff_.resize(nodes.size(), 0);
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
+        if (body.enabled) {
+            nodes.invMass[n] = body.fixed || pinsWhileOff_[n] != 0 ? 0 : 1 / nodes.mass[n];
+        } else {
+            pinsWhileOff_[n] = nodes.invMass[n] == 0;
+            nodes.invMass[n] = 0;
+        }
+    }
 }
 
 void World::setJoint(JointHandle handle, const JointDef& def)

@@ -75,20 +75,6 @@ void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
     softBody(handle).matter = matter;
 }
 
-void World::setBody(BodyHandle handle, const BodyCommon& common)
-{
-    requireBelow("body", handle, bodyCount());
-    BodyRecord& body = state_.bodies[handle];
-    if (body.rigid) return PhysicsWorld::setBody(handle, common);
-    validate(common, settings_);
-    if (common.fixed != body.fixed)
-        throw Failure(Error("Physics: body " + std::to_string(handle) +
-                            " cannot become fixed or free while the world runs; pin its particles instead."));
-    body.material = common.material, body.gravityScale = common.gravityScale;
-    body.sensor = common.sensor, body.layer = common.layer;
-    queries_.outdate();
-}
-
 void World::setSprings(BodyHandle handle, double ks, double kd, double tearRatio)
 {
     softBody(handle);
@@ -103,8 +89,11 @@ void World::setPinned(BodyHandle handle, std::uint32_t particle, bool pinned)
     requireBelow("particle", particle, body.points.count);
     if (body.fixed) return;
     Nodes& nodes = state_.nodes;
-    keepFreeInverse();
     const Index node = state_.points.node[body.points.first + particle];
+    if (!body.enabled) {
+        pinsWhileOff_[node] = pinned;
+        return;
+    }
     nodes.invMass[node] = pinned ? 0 : 1 / nodes.mass[node];
     if (pinned) nodes.velocity[node] = Vec2(0, 0);
     rate_ = -1;

@@ -52,6 +52,12 @@ void Collider::disturb(Index body)
     disturbed_ = true;
 }
 
+void Collider::seekAgain(Index body)
+{
+    disturb(body);
+    for (Index p = 0; p < bodies_[body].partCount; ++p) sweep_.forget(bodies_[body].firstPart + p);
+}
+
 void Collider::disturbAll()
 {
     for (Index i = 1; i < resting_.size(); ++i) disturb(i);
@@ -329,7 +335,7 @@ void Collider::findPairs(const WorldSettings& settings)
 bool Collider::mayMeet(Index a, Index b) const
 {
     const RigidBody &bodyA = bodies_[a], &bodyB = bodies_[b];
-    if (a == b || (!bodyA.moves && !bodyB.moves)) return false;
+    if (a == b || (!bodyA.moves && !bodyB.moves) || !bodyA.enabled || !bodyB.enabled) return false;
     if (bodyA.group != 0 && bodyA.group == bodyB.group) return false;
     return (bodyA.layer & bodyB.mask) != 0 && (bodyB.layer & bodyA.mask) != 0;
 }

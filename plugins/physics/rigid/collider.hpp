@@ -24,6 +24,8 @@ public:
     void include(Index a, Index b) { excluded_.erase(bodyKey(a, b)); }
     /// Something about the body has changed: all its contacts are looked at again.
     void disturb(Index body);
+    /// Its pairs are sought afresh, those that were known and have been forgotten too.
+    void seekAgain(Index body);
 
     /// Does the contact, which is to push, hold a sleeping body? Then that is to be woken first.
     bool rouses(RigidContact&);

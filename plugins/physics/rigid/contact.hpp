@@ -16,11 +16,20 @@ struct RigidBody {
     bool moves = false;  // pushed by contacts
     bool kinematic = false, sensor = false;
     bool mayRest = true;
+    bool enabled = true;
     bool asleep = false, posed = false;  // rests; its pose was taken since it does
     float length = 1;                    // typical size, units
     float finest = 0;                    // the same of its smallest part
     float reach = 0;                     // farthest point from the centre, units
     float oneSidedX = 0, oneSidedY = 0;  // unit, or null
+
+    bool takesPart() const { return enabled && !asleep; }
+    void setOneSided(const Vec2& direction)
+    {
+        const double length = direction.norm();
+        const Vec2 up = length > 0 ? Vec2(direction / length) : Vec2(0, 0);
+        oneSidedX = static_cast<float>(up.x()), oneSidedY = static_cast<float>(up.y());
+    }
 };
 
 /// What collision needs to know of a body's motion, refreshed at the start of a step.

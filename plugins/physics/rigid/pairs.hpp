@@ -51,6 +51,11 @@ public:
     bool anyMoved() const { return anyMoved_; }
     /// Pairs that were found before are to be found again.
     void forget() { std::fill(before_.begin(), before_.end(), kNowhere); }
+    /// The same for a part that is moved next.
+    void forget(Index part)
+    {
+        if (part < boxes_.size()) boxes_[part] = before_[part] = kNowhere;
+    }
 
     /// Calls found(a, b, met) for each pair of boxes that meet and of which one was moved; then nothing counts as
     /// moved. `met`: they did so before they were moved, too. Pairs of long parts may come more than once.

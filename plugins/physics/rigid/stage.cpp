@@ -68,10 +68,7 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
     body.moves = state.nodes.invMass[node] > 0;
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
-    if (def.common.oneSided.norm() > 0) {
-        const Vec2 up = def.common.oneSided.normalized();
-        body.oneSidedX = static_cast<float>(up.x()), body.oneSidedY = static_cast<float>(up.y());
-    }
+    body.setOneSided(def.common.oneSided);
     const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
     bodyOf_.resize(std::max<std::size_t>(bodyOf_.size(), handle + 1), 0);
@@ -222,7 +219,7 @@ void RigidStage::addJoints(Solver<Real>& solver, const State& state)
 {
     const auto& bodies = collider_.bodies();
     for (Index i = 0; i < joints_.size(); ++i) {
-        if (bodies[joints_[i].a].asleep || bodies[joints_[i].b].asleep) continue;
+        if (!bodies[joints_[i].a].takesPart() || !bodies[joints_[i].b].takesPart()) continue;
         joints_[i].state.force = Vec2(0, 0), joints_[i].state.torque = 0;
         if (joints_[i].lives()) solver.addJoint(joints_[i], i, state, collider_.bodies());
     }
@@ -404,6 +401,7 @@ void RigidStage::noteTouches(const std::vector<TouchChange>& changes)
         const Index a = bodies[c.bodyA].handle, b = bodies[c.bodyB].handle;
         events_.push_back({std::min(a, b), std::max(a, b), c.begins, static_cast<double>(c.impulse)});
     }
+    if (!ended_.empty()) tellPartings();
     std::sort(events_.begin(), events_.end(), [](const ContactEvent& p, const ContactEvent& q) {
         return std::tie(p.bodyA, p.bodyB, p.begins) < std::tie(q.bodyA, q.bodyB, q.begins);
     });

@@ -32,6 +32,10 @@ public:
     /// They are sought afresh, and their impulses are forgotten.
     void forgetPairs();
 
+    // Live changes, see live.cpp; the body is awake, and its node is what it shall be.
+    void set(const State&, Index handle, const BodyCommon&);
+    void enable(const State&, Index handle, bool enabled);
+
     /// The whole step, where nothing else moves: `forces` and torques lie in the nodes.
     void step(State&, const WorldSettings&, double dt, StepStats&);
 
@@ -71,7 +75,12 @@ public:
         collider_.archive(with);
         watches_.resize(collider_.bodies().size()), group_.resize(collider_.bodies().size(), kNone);
         with(watches_), with(group_), with(sinceLook_), with(restH_), with(sleepers_), with(drowsy_), with(woke_);
-        for (RigidBody& body : collider_.bodies()) with(body.asleep);
+        for (RigidBody& body : collider_.bodies()) {
+            with(body.asleep), with(body.enabled), with(body.moves), with(body.kinematic), with(body.sensor);
+            with(body.mayRest), with(body.material), with(body.group), with(body.layer), with(body.mask);
+            with(body.oneSidedX), with(body.oneSidedY);
+        }
+        with.list(ended_, [&](Parting& parting) { with(parting); });
         with(active_);
         if (active_ == Active::Single) single_.archive(with, collider_);
         if (active_ == Active::Double) double_.archive(with, collider_);
@@ -89,6 +98,7 @@ public:
         collider_.rebuild();
         if (active_ != Active::Single) single_ = {};  // it was not in the state, and knows contacts of another one
         if (active_ != Active::Double) double_ = {};
+        countMovers();
     }
 
 private:
@@ -118,6 +128,10 @@ private:
     void advance(Solver<Real>&, State&, double dt);
     void exchange(State&, bool store);
     void noteTouches(const std::vector<TouchChange>&);
+    void tellPartings();
+    void forgetContacts(Index body);
+    void changed(Index body);
+    void countMovers();
     void breakJoints();
 
     /// Which solver holds the contacts' constraints.
@@ -132,6 +146,11 @@ private:
     Solver<float> single_;
     Solver<double> double_;
     std::vector<ContactEvent> events_;
+    /// Two bodies, by their handles, that touched until one of them was changed.
+    struct Parting {
+        Index a = 0, b = 0;
+    };
+    std::vector<Parting> ended_;  // since the last step
     std::vector<Vec2> start_, moves_;
     std::vector<double> startAngle_, turns_;
     std::vector<float> allowed_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNear = 1e-3;  // of the typical length: ends that lie nearer are one
 
-bool stands(const RigidBody& body) { return !body.moves && !body.kinematic && !body.sensor; }
+bool stands(const RigidBody& body) { return body.enabled && !body.moves && !body.kinematic && !body.sensor; }
 
 /// Only what meets the same others is welded.
 auto kindOf(const RigidBody& body)

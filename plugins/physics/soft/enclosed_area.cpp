@@ -67,7 +67,7 @@ double enclosedArea(const State& state, const BodyRecord& body)
 void applyPressure(State& state, double h)
 {
     for (const BodyRecord& body : state.bodies) {
-        if (body.rigid || body.fixed || body.open || !(body.restArea > 0)) continue;
+        if (body.rigid || body.fixed || !body.enabled || body.open || !(body.restArea > 0)) continue;
         if (body.matter.pressure > 0 || body.matter.areaStiffness > 0) push(state, body, h, state.scratch.gradient);
     }
 }

@@ -208,17 +208,26 @@ void Joints::solve(State& state, Held& held, bool push)
     }
 }
 
+/// Not what is gone, nor what holds a body that is switched off.
+bool Joints::pulls(const State& state, const Held& held)
+{
+    const auto takesPart = [&](const Anchor& anchor) {
+        return anchor.body == kNoHandle || state.bodies[anchor.body].enabled;
+    };
+    return held.joint.lives() && takesPart(held.joint.def.a) && takesPart(held.joint.def.b);
+}
+
 void Joints::push(State& state, double h)
 {
     h_ = h;
     for (Held& held : joints_)
-        if (held.joint.lives()) solve(state, held, true);
+        if (pulls(state, held)) solve(state, held, true);
 }
 
 void Joints::relax(State& state)
 {
     for (std::size_t i = joints_.size(); i-- > 0;)
-        if (joints_[i].joint.lives()) solve(state, joints_[i], false);
+        if (pulls(state, joints_[i])) solve(state, joints_[i], false);
 }
 
 bool Joints::settle(Held& held, double dt)

@@ -82,6 +82,7 @@ private:
     static void give(State&, const Hold&, const Pose& before, const BodyState<double>& after);
     static JointFrame frame(const Held&, const Pose& a, const Pose& b);
     bool settle(Held&, double dt);
+    static bool pulls(const State&, const Held&);
     void solve(State&, Held&, bool push);
 
     std::vector<Held> joints_;

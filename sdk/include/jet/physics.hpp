@@ -317,7 +317,7 @@ public:
     virtual void setSettings(const WorldSettings&);
     virtual void setBody(BodyHandle, const BodyCommon&);
     virtual void setMass(BodyHandle, double mass);
-    /// A body that is not enabled stands still, is not seen by queries and meets nothing.
+    /// Switched off, a body stands still, is unseen, meets and holds nothing; it starts from rest when switched on.
     virtual void setEnabled(BodyHandle, bool enabled);
     virtual void setJoint(JointHandle, const JointDef&);
     /// restLength < 0: as it is.

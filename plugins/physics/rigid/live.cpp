@@ -1,0 +1,100 @@
+// Bodies that are changed or switched while the world runs.
+#include "stage.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace jet::physics {
+
+namespace {
+
+/// Whatever decides what a body meets, and how.
+auto meetingsOf(const RigidBody& body)
+{
+    return std::tuple(body.enabled, body.moves, body.kinematic, body.sensor, body.material, body.group, body.layer,
+                      body.mask, body.oneSidedX, body.oneSidedY);
+}
+
+}  // namespace
+
+void RigidStage::set(const State& state, Index handle, const BodyCommon& common)
+{
+    if (!has(handle)) return;
+    const Index index = bodyOf_[handle];
+    RigidBody& body = collider_.bodies()[index];
+    RigidBody wanted = body;
+    wanted.material = common.material;
+    wanted.group = common.group, wanted.layer = common.layer, wanted.mask = common.mask;
+    wanted.sensor = common.sensor, wanted.mayRest = common.allowSleep;
+    wanted.setOneSided(common.oneSided);
+    wanted.moves = state.nodes.invMass[body.node] > 0;
+    wanted.kinematic = state.bodies[handle].kinematic;
+    const bool meetsOthers = meetingsOf(wanted) != meetingsOf(body);
+    if (meetsOthers) forgetContacts(index);
+    body = wanted;
+    if (meetsOthers) changed(index);
+    collider_.disturb(index);
+}
+
+void RigidStage::enable(const State& state, Index handle, bool enabled)
+{
+    if (!has(handle)) return;
+    const Index index = bodyOf_[handle];
+    forgetContacts(index);
+    RigidBody& body = collider_.bodies()[index];
+    body.enabled = enabled;
+    body.moves = state.nodes.invMass[body.node] > 0;
+    body.kinematic = state.bodies[handle].kinematic;
+    changed(index);
+}
+
+/// Before the body is changed: the constraints of its contacts are those of what it was.
+void RigidStage::forgetContacts(Index body)
+{
+    const auto& bodies = collider_.bodies();
+    for (Index i = 0; i < collider_.places().size(); ++i) {
+        const RigidContact& c = collider_.contacts()[i];
+        if (collider_.places()[i] == kFree || (c.bodyA != body && c.bodyB != body)) continue;
+        if (c.touching) ended_.push_back({bodies[c.bodyA].handle, bodies[c.bodyB].handle});
+        if (active_ == Active::Single) single_.suspend(collider_, i);
+        if (active_ == Active::Double) double_.suspend(collider_, i);
+        collider_.forget(i);
+    }
+}
+
+void RigidStage::changed(Index body)
+{
+    collider_.seekAgain(body);
+    if (!collider_.bodies()[body].moves) collider_.rearrange();
+    countMovers();
+}
+
+void RigidStage::countMovers()
+{
+    movers_ = 0;
+    kinematic_.clear();
+    const auto& bodies = collider_.bodies();
+    for (Index i = 1; i < bodies.size(); ++i) {
+        movers_ += bodies[i].moves;
+        if (bodies[i].kinematic) kinematic_.push_back(i);
+    }
+}
+
+/// Those that touch as before have not parted.
+void RigidStage::tellPartings()
+{
+    for (const Parting& parting : ended_) {
+        const Index a = std::min(parting.a, parting.b), b = std::max(parting.a, parting.b);
+        const auto again = std::find_if(events_.begin(), events_.end(), [&](const ContactEvent& e) {
+            return e.begins && e.bodyA == a && e.bodyB == b;
+        });
+        if (again == events_.end()) {
+            events_.push_back({a, b, false, 0});
+        } else {
+            events_.erase(again);
+        }
+    }
+    ended_.clear();
+}
+
+}  // namespace jet::physics
