@@ -28,7 +28,7 @@ private:
             while (at_ < text_.size() && std::string_view(" \t\r\n\xef\xbb\xbf").find(here()) != std::string_view::npos)
                 ++at_;
             if (text_.compare(at_, 2, "//") == 0)
-                at_ = std::min(text_.find('\n', at_), text_.size());
+                at_ = std::min(text_.find_first_of(std::string_view("\n\r\0", 3), at_), text_.size());
             else if (text_.compare(at_, 2, "/*") == 0)
                 at_ = std::min(text_.find("*/", at_ + 2), text_.size() - 2) + 2;
             else
@@ -62,7 +62,8 @@ private:
         ++at_;
         for (int index = 0; at_ < text_.size(); ++index) {
             skipBlanks();
-            if (here() == end) break;
+            // No value begins with these; a text with an error goes no farther.
+            if (here() == end || here() == '}' || here() == ']' || here() == '\0') break;
             const std::size_t start = at_;
             std::string name = std::to_string(index);
             if (end == '}') {
@@ -73,7 +74,8 @@ private:
             }
             value(pointer + '/' + name, start);
             skipBlanks();
-            if (here() == ',') ++at_;
+            if (here() != ',') break;
+            ++at_;
         }
         ++at_;
         --depth_;

@@ -120,6 +120,19 @@ TEST(ManifestTest, AWarningHasItsPlace)
               "nothing; did you mean 'optional'?");
 }
 
+/// What follows a null byte is no part of the JSON, and may be anything; the place of an error is sought in all of it.
+TEST(ManifestTest, WhatIsNoJsonAfterANullByteIsNoHang)
+{
+    using namespace std::string_literals;
+    for (const std::string& rest : {"[}"s, "{\"a\"]"s, "[,,}"s, "{\"a\" \"b\" {]"s, "[[}{]"s, "[\0}"s})
+        EXPECT_THAT(refusal("// a\0"
+                            "0\0"s +
+                            rest),
+                    HasSubstr("a manifest is a JSON object"))
+            << rest;
+    EXPECT_THAT(refusal("// a\r[ 1,\n {\"id\": 5} ]"), HasSubstr("plugin.json:1:6: error: a manifest is a JSON object"));
+}
+
 TEST(ManifestTest, DeepNestingAndTruncationsAreNoCrash)
 {
     EXPECT_NE(refusal(std::string(100'000, '[')), "accepted");
