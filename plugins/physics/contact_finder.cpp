@@ -1,7 +1,6 @@
 #include "contact_finder.hpp"
 
 #include "border.hpp"
-#include "soft/mass_sums.hpp"
 
 #include <chrono>
 
@@ -218,13 +217,12 @@ void ContactFinder::predictBody(const State& state, const BodyRecord& body, cons
         motion.velocity = nodes.velocity[body.nodes.first];
         motion.omega = nodes.omega[body.nodes.first];
     } else {
-        const soft::MassSums sums = soft::massSums(nodes, body.nodes);
-        motion.centre = sums.centre, motion.velocity = sums.velocity, motion.omega = sums.omega();
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-            const Vec2 rigid = motion.velocity + motion.omega * perpendicular(nodes.position[n] - motion.centre);
-            spread = std::max(spread, (nodes.velocity[n] - rigid).squaredNorm());
-        }
-        spread = std::sqrt(spread);
+        const Index first = body.nodes.first;
+        const soft::Cloud cloud{nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first], nullptr,
+                                body.nodes.count};
+        const soft::CloudSums sums = clouds_->sums(cloud);
+        motion.centre = {sums.x, sums.y}, motion.velocity = {sums.vx, sums.vy}, motion.omega = sums.omega();
+        spread = std::sqrt(clouds_->stray(cloud, {sums.x, sums.y, sums.vx, sums.vy, motion.omega}).speed);
     }
     const double radius = 0.5 * motion.reach.size().norm();
     const double turning = std::min(std::abs(motion.omega) * dt, 2.0) * radius;
@@ -247,18 +245,15 @@ bool ContactFinder::strayed(const State& state, double elapsed) const
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         if (body.fixed || body.points.count == 0) continue;
-        const auto off = [&](Index n) {
-            return (nodes.position[n] - position_[n] - elapsed * velocity_[n]).squaredNorm();
-        };
+        const Index n = body.nodes.first;
+        const double off = clouds_->farthest(nodes.position[n].data(), position_[n].data(), velocity_[n].data(),
+                                             elapsed, body.nodes.count);
         if (body.rigid) {
-            const Index n = body.nodes.first;
             const double turned = std::abs(nodes.angle[n] - angle_[n] - elapsed * omega_[n]);
-            if (std::sqrt(off(n)) + body.radius * turned > budgets_[handle]) return true;
-            continue;
+            if (std::sqrt(off) + body.radius * turned > budgets_[handle]) return true;
+        } else if (off > budgets_[handle] * budgets_[handle]) {
+            return true;
         }
-        double most = 0;
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) most = std::max(most, off(n));
-        if (most > budgets_[handle] * budgets_[handle]) return true;
     }
     return false;
 }

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "narrow_phase.hpp"
+#include "soft/cloud_kernels.hpp"
 
 namespace jet::physics {
 
 class ContactFinder {
 public:
+    void use(const soft::CloudKernels& kernels) { clouds_ = &kernels; }
+
     /// Contacts that serve the coming `dt` seconds, in ascending order of (point, wall).
     void find(State&, const WorldSettings&, double dt, std::vector<ContactPoint>& contacts, StepStats&);
     /// Appends those contacts the last find() dropped that had pushed in this step: they are over, but they happened.
@@ -37,6 +40,7 @@ private:
                       std::vector<ContactPoint>& contacts);
     static void carryOver(const State&, std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts);
 
+    const soft::CloudKernels* clouds_ = &soft::sse2::clouds;
     bool lonely_ = false;  // is there nothing that could meet?
     std::vector<Motion> motions_;
     std::vector<double> budgets_;            // [bodies] units a node may stray

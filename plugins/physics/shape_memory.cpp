@@ -1,7 +1,5 @@
 #include "shape_memory.hpp"
 
-#include "soft/mass_sums.hpp"
-
 #include <numeric>
 
 namespace jet::physics {
@@ -100,114 +98,104 @@ void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle han
             lattice.inertia += state.nodes.mass[lattice.nodes[i]] * lattice.rest[i].squaredNorm();
         }
         lattice.body = handle;
+        const bool whole = count == def.particles.size();
         lattice.tolerance = kTolerance * std::sqrt(lattice.inertia / lattice.mass);
         lattice.rate = kStiffness * springs[group].rates / static_cast<double>(count);
+        if (whole) lattice.nodes = {}, lattice.rest = {};
         if (lattice.inertia > 0) lattices_.push_back(std::move(lattice));
     }
 }
 
-bool ShapeMemory::anyPinned(const Nodes& nodes, const Lattice& lattice)
+bool ShapeMemory::anyPinned(const State& state, const Lattice& lattice)
 {
-    return std::any_of(lattice.nodes.begin(), lattice.nodes.end(), [&](Index n) { return nodes.invMass[n] == 0; });
+    const auto pinned = [&](Index n) { return state.nodes.invMass[n] == 0; };
+    if (!lattice.nodes.empty()) return std::any_of(lattice.nodes.begin(), lattice.nodes.end(), pinned);
+    const Range& own = state.bodies[lattice.body].nodes;
+    const auto first = state.nodes.invMass.begin() + own.first;
+    return std::find(first, first + own.count, 0.0) != first + own.count;
 }
 
-void ShapeMemory::look(const State& state, double dt)
+/// The lattice's particles one after the other: as they lie, or copied.
+soft::Cloud ShapeMemory::cloudOf(State& state, const Lattice& lattice)
 {
     const Nodes& nodes = state.nodes;
+    const BodyRecord& body = state.bodies[lattice.body];
+    const std::size_t count = lattice.nodes.empty() ? body.nodes.count : lattice.nodes.size();
+    if (change_.size() < count) change_.resize(count);
+    if (lattice.nodes.empty()) {
+        const Index first = body.nodes.first;
+        return {nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first], body.restArms[0].data(),
+                count};
+    }
+    position_.clear(), velocity_.clear(), mass_.clear();
+    for (const Index n : lattice.nodes)
+        position_.push_back(nodes.position[n]), velocity_.push_back(nodes.velocity[n]), mass_.push_back(nodes.mass[n]);
+    return {position_[0].data(), velocity_[0].data(), mass_.data(), lattice.rest[0].data(), count};
+}
+
+void ShapeMemory::look(State& state, double dt)
+{
     for (Lattice& lattice : lattices_) {
         // What is nailed down has no shape of its own; neither has what flows.
-        lattice.relaxed = state.bodies[lattice.body].matter.yield > 0 || anyPinned(nodes, lattice);
+        lattice.relaxed = state.bodies[lattice.body].matter.yield > 0 || anyPinned(state, lattice);
         if (lattice.relaxed) continue;
-        const Motion motion = match(nodes, lattice);
-        double off = 0, speed = 0;
-        for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
-            const Index n = lattice.nodes[i];
-            const Vec2 arm = nodes.position[n] - motion.centre;
-            off = std::max(off, (rotated(lattice.rotation, lattice.rest[i]) - arm).squaredNorm());
-            const Vec2 own = nodes.velocity[n] - motion.velocity - motion.omega * perpendicular(arm);
-            speed = std::max(speed, own.squaredNorm());
-        }
-        lattice.relaxed = std::sqrt(off) + std::sqrt(speed) * dt < kRelaxed * lattice.tolerance;
+        const soft::Cloud cloud = cloudOf(state, lattice);
+        const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);
+        lattice.relaxed = std::sqrt(stray.off) + std::sqrt(stray.speed) * dt < kRelaxed * lattice.tolerance;
     }
 }
 
 void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
 {
-    Nodes& nodes = state.nodes;
     for (Lattice& lattice : lattices_) {
         if (lattice.relaxed || springs.anyTorn(lattice.body)) continue;
-        const Motion motion = match(nodes, lattice);
-        if (!pull(nodes, lattice, motion, h)) continue;
-        removeNet(nodes, lattice, motion);
-        for (std::size_t i = 0; i < lattice.nodes.size(); ++i)
-            nodes.velocity[lattice.nodes[i]] += elastic_[i] + damping_[i];
+        const soft::Cloud cloud = cloudOf(state, lattice);
+        const Motion motion = match(cloud, lattice);
+        const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));
+        const double damped = std::min(1.0, 2 * kDampingRatio * std::sqrt(rate) * h);
+        double* change = change_.front().data();
+        const soft::CloudPulled pulled =
+            kernels_->pull(cloud, motion.rigid, {lattice.tolerance, h * rate, damped}, change);
+        if (!pulled.any) continue;
+        const soft::CloudReturn back = netOf(pulled, lattice, motion);
+        if (lattice.nodes.empty()) {
+            Vec2& first = state.nodes.velocity[state.bodies[lattice.body].nodes.first];
+            kernels_->give(cloud, motion.rigid, back, change, first.data());
+            continue;
+        }
+        kernels_->give(cloud, motion.rigid, back, change, velocity_.front().data());
+        for (std::size_t i = 0; i < lattice.nodes.size(); ++i) state.nodes.velocity[lattice.nodes[i]] = velocity_[i];
     }
 }
 
-ShapeMemory::Motion ShapeMemory::match(const Nodes& nodes, Lattice& lattice) const
+ShapeMemory::Motion ShapeMemory::match(const soft::Cloud& cloud, Lattice& lattice) const
 {
-    const soft::MassSums sums = soft::massSums(
-        nodes, lattice.nodes.size(), [&](std::size_t i) { return lattice.nodes[i]; }, lattice.rest.data());
-    Motion motion{sums.centre, sums.velocity, sums.omega(), sums.inertia};
-    const double along = sums.along, across = sums.across;
-    motion.fit = std::sqrt(along * along + across * across);
+    const soft::CloudSums sums = kernels_->sums(cloud);
+    Motion motion;
+    motion.inertia = sums.inertia;
+    motion.fit = std::sqrt(sums.along * sums.along + sums.across * sums.across);
     motion.certain = motion.fit > kLeastFit * lattice.inertia;
-    if (motion.certain) lattice.rotation = Vec2(along, across) / motion.fit;
+    if (motion.certain) lattice.rotation = Vec2(sums.along, sums.across) / motion.fit;
+    motion.rigid = {sums.x, sums.y, sums.vx, sums.vy, sums.omega(), lattice.rotation.x(), lattice.rotation.y()};
     return motion;
 }
 
-/// Fills elastic_ and damping_ with what draws each particle to its goal; false when all are within the tolerance.
-bool ShapeMemory::pull(const Nodes& nodes, const Lattice& lattice, const Motion& motion, double h)
-{
-    const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));
-    const double damped = std::min(1.0, 2 * kDampingRatio * std::sqrt(rate) * h);
-    bool any = false;
-    const double tolerated = lattice.tolerance * lattice.tolerance;
-    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
-        const Index n = lattice.nodes[i];
-        const Vec2 arm = nodes.position[n] - motion.centre;
-        const Vec2 away = rotated(lattice.rotation, lattice.rest[i]) - arm;
-        const double squared = away.squaredNorm();
-        if (!(squared > tolerated)) continue;
-        if (!any) {
-            any = true;
-            elastic_.assign(lattice.nodes.size(), Vec2(0, 0));
-            damping_.assign(lattice.nodes.size(), Vec2(0, 0));
-        }
-        elastic_[i] = h * rate * (1 - lattice.tolerance / std::sqrt(squared)) * away;
-        damping_[i] = -damped * (nodes.velocity[n] - motion.velocity - motion.omega * perpendicular(arm));
-    }
-    return any;
-}
-
-/// Takes the net momentum and angular momentum out of both.
+/// Takes the net momentum and angular momentum out of both parts of the pull.
 ///
 /// dU/dx through R: the angle of the fit changes by m perpendicular(R q)·dx / fit. Without a certain R, and for the
 /// damping, a rigid motion of the particles as they are; taken out of the damping it can only lower what that leaves
 /// of the energy, as it is its part orthogonal to rigid motions that remains.
-void ShapeMemory::removeNet(const Nodes& nodes, const Lattice& lattice, const Motion& motion)
+soft::CloudReturn ShapeMemory::netOf(const soft::CloudPulled& pulled, const Lattice& lattice, const Motion& motion)
 {
-    Vec2 pulled(0, 0), damped(0, 0);
-    double pulledTurn = 0, dampedTurn = 0;
-    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
-        const Index n = lattice.nodes[i];
-        const Vec2 arm = nodes.position[n] - motion.centre;
-        pulled += nodes.mass[n] / lattice.mass * elastic_[i];
-        damped += nodes.mass[n] / lattice.mass * damping_[i];
-        pulledTurn += nodes.mass[n] * cross(arm, elastic_[i]);
-        dampedTurn += nodes.mass[n] * cross(arm, damping_[i]);
-    }
     const double inertia = std::max(motion.inertia, 1e-12 * lattice.inertia);
-    for (std::size_t i = 0; i < lattice.nodes.size(); ++i) {
-        const Vec2 across = perpendicular(nodes.position[lattice.nodes[i]] - motion.centre);
-        elastic_[i] -= pulled;
-        if (motion.certain) {
-            elastic_[i] -= pulledTurn / motion.fit * perpendicular(rotated(lattice.rotation, lattice.rest[i]));
-        } else {
-            elastic_[i] -= pulledTurn / inertia * across;
-        }
-        damping_[i] -= damped + dampedTurn / inertia * across;
+    soft::CloudReturn back{-(pulled.x + pulled.dampedX) / lattice.mass, -(pulled.y + pulled.dampedY) / lattice.mass, 0,
+                           -pulled.dampedTurn / inertia};
+    if (motion.certain) {
+        back.goal = -pulled.turn / motion.fit;
+    } else {
+        back.place -= pulled.turn / inertia;
     }
+    return back;
 }
 
 }  // namespace jet::physics

@@ -14,6 +14,7 @@
 // the step.
 #pragma once
 
+#include "soft/cloud_kernels.hpp"
 #include "soft_springs.hpp"
 
 namespace jet::physics {
@@ -24,9 +25,10 @@ public:
     /// particles), what was not built at rest, and what is nailed down has none.
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
+    void use(const soft::CloudKernels& kernels) { kernels_ = &kernels; }
     /// Once a step, before its substeps: bodies that cannot come near their tolerance within dt are left out of it,
     /// unless something hits them: then the next step sees it.
-    void look(const State&, double dt);
+    void look(State&, double dt);
     /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
     void apply(State&, const SoftSprings&, double h);
 
@@ -40,7 +42,7 @@ private:
     /// Particles of one body that springs join.
     struct Lattice {
         BodyHandle body = kNoHandle;
-        std::vector<Index> nodes;  // ascending
+        std::vector<Index> nodes;  // ascending; empty: those of the whole body, whose shape is BodyRecord::restArms
         std::vector<Vec2> rest;    // q, scene units
         double mass = 0;
         double inertia = 0;          // sum m |q|²
@@ -51,20 +53,22 @@ private:
     };
     /// The rigid motion nearest to that of the particles.
     struct Motion {
-        Vec2 centre, velocity;
-        double omega = 0;     // rad / s
+        soft::CloudMotion rigid;
         double inertia = 0;   // sum m |p|²
         double fit = 0;       // sum m (R q)·p; inertia at rest
         bool certain = true;  // is there a best R?
     };
 
-    static bool anyPinned(const Nodes&, const Lattice&);
-    Motion match(const Nodes&, Lattice&) const;
-    bool pull(const Nodes&, const Lattice&, const Motion&, double h);
-    void removeNet(const Nodes&, const Lattice&, const Motion&);
+    static bool anyPinned(const State&, const Lattice&);
+    soft::Cloud cloudOf(State&, const Lattice&);
+    Motion match(const soft::Cloud&, Lattice&) const;
+    static soft::CloudReturn netOf(const soft::CloudPulled&, const Lattice&, const Motion&);
 
+    const soft::CloudKernels* kernels_ = &soft::sse2::clouds;
     std::vector<Lattice> lattices_;
-    std::vector<Vec2> elastic_, damping_;  // changes of velocity, one a particle of the lattice at hand
+    // Scratch: changes of velocity, one a particle of the lattice at hand, and copies of particles that lie scattered.
+    std::vector<Vec2> change_, position_, velocity_;
+    std::vector<double> mass_;
 };
 
 }  // namespace jet::physics

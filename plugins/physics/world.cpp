@@ -15,6 +15,8 @@ World::World(const WorldSettings& settings) : settings_(settings)
     if (settings.method == Method::SemiImplicitEuler) settings_.substeps = 1;
     const bool avx2 = settings.simd != Simd::Sse2 && soft::hasAvx2();
     springs_.use(avx2 ? soft::kernelsAvx2() : soft::kernelsSse2());
+    const soft::CloudKernels& clouds = avx2 ? soft::avx2::clouds : soft::sse2::clouds;
+    shapes_.use(clouds), finder_.use(clouds);
     softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
 }
 

@@ -125,6 +125,8 @@ void World::prepareStiffness()
 
 void World::substep(double h, int index, int count)
 {
+    const double gravity = settings_.applyGravity ? settings_.gravity.norm() : 0;
+    softContacts_.refresh(state_, h, gravity);
     {
         const Stopwatch watch(stats_.springsMs);
         if (pushed_)
@@ -146,11 +148,10 @@ void World::substep(double h, int index, int count)
     const Stopwatch watch(stats_.solverMs);
     rigid_.push(state_);
     softJoints_.push(state_, h);
-    const double gravity = settings_.applyGravity ? settings_.gravity.norm() : 0;
     ContactSolver solver(state_, contacts_, h, gravity);
     solver.prepare();
     solver.solve();
-    softContacts_.push(state_, h, gravity);
+    softContacts_.push(state_);
     integratePositions(state_, springs_.kernels(), h);
     moveKinematic(h);
     rigid_.relax(state_);

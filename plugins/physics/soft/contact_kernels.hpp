@@ -31,8 +31,11 @@ struct alignas(32) ContactBlock {
     Floats beside{}, passing{};  // units beyond an end of the wall, units / s along it
     // Carried from substep to substep, mass * unit / s.
     Floats normalImpulse{}, tangentImpulse{}, stepImpulse{};
+    Flags far{};            // of those that do not act: may wait long
+    Floats drift{};         // units they moved along their walls, and those turned, since they were looked at
     std::int32_t idle = 0;  // substeps in which none of them can become active
     bool any = false;       // is one active?
+    bool elastic = false;   // has one of the active ones restitution?
     bool bounces = false;   // is one to be thrown back?
 };
 
@@ -72,8 +75,11 @@ struct Particles {
 };
 
 struct ContactKernels {
-    /// Geometry as the particles stand, and which contacts act in this substep.
+    /// Geometry as the particles stand, and which contacts act in this substep, where that may have changed. Velocities
+    /// are those the particles really moved with: before springs push them against what they lie on.
     void (*refresh)(ContactBlock*, std::size_t count, const Particles&, const ContactStep&);
+    /// How fast those that may bounce meet.
+    void (*meet)(ContactBlock*, std::size_t count, const Particles&, float restSpeed);
     /// Applies the impulses carried over.
     void (*warm)(const ContactBlock*, std::size_t count, const Particles&);
     /// `push`: with what pushes overlaps apart; otherwise after the positions moved, without.

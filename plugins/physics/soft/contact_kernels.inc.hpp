@@ -3,7 +3,8 @@
 namespace {
 
 constexpr float kTouchSlops = 4;  // kTouchDepth of contact_point.hpp
-constexpr float kIdleSlops = 8, kMostIdle = 8;
+constexpr float kIdleSlops = 8, kMostIdle = 8, kFarIdle = 6;
+constexpr float kMostDrift = 1;  // slops an acting contact moves before it is looked at again
 constexpr float kPushLengthsPerSecond = 4, kSlopsPerLength = 500;  // as of contact_solver.cpp
 
 typedef float Four __attribute__((vector_size(16)));
@@ -63,7 +64,8 @@ JET_INLINE Offsets offsets(const double* of, const ContactBlock& c)
             __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15)};
 }
 
-/// Impulses along normal and tangent, on the particle, and against it on the ends of the wall.
+/// Impulses along normal and tangent, on the particle, and against it on the ends of the wall. Many contacts act
+/// without pushing; those are passed over.
 JET_INLINE void exert(const ContactBlock& c, const Particles& particles, const Floats& normal, const Floats& tangent)
 {
     const Floats x = normal * c.normalX - tangent * c.normalY, y = normal * c.normalY + tangent * c.normalX;
@@ -74,7 +76,8 @@ JET_INLINE void exert(const ContactBlock& c, const Particles& particles, const F
     __builtin_memcpy(impulses, pairs, sizeof impulses);
     __builtin_memcpy(share, &c.along, sizeof share);
     const __m128d one = _mm_set1_pd(1);
-    for (unsigned rest = bits(c.active); rest != 0; rest &= rest - 1) {
+    const Flags pushes = c.active & ((normal != Floats{}) | (tangent != Floats{}));
+    for (unsigned rest = bits(pushes); rest != 0; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
         double pair = 0;
         __builtin_memcpy(&pair, impulses + 2 * i, sizeof pair);
@@ -138,29 +141,50 @@ JET_INLINE void decide(ContactBlock& c, const Offsets& at, const Offsets& moving
     c.tangentImpulse = choose(c.active, c.tangentImpulse, zero);
 }
 
-/// For how many substeps none of the contacts need be looked at: what is far, and slow for that, may wait.
-JET_INLINE std::int32_t idleFor(const ContactBlock& c, const ContactStep& step)
+/// For how many substeps those that do not act need not be looked at: what is far, and slow for that, may wait.
+JET_INLINE std::int32_t idleFor(ContactBlock& c, const ContactStep& step)
 {
     const Floats above = (c.separation - kIdleSlops * c.slop) / (4 * size(c.approach) * step.h + c.slop);
     const Floats beside = (c.beside - kIdleSlops * c.slop) / (4 * c.passing * step.h + c.slop);
-    const Floats wait = choose(c.side != Floats{}, least(most(above, beside), all(kMostIdle)), all(kMostIdle));
+    const Flags waits = (c.side != Floats{}) & ~c.active;
+    const Floats wait = choose(waits, least(most(above, beside), all(kMostIdle)), all(kMostIdle));
+    c.far = (wait >= all(kFarIdle)) & ~c.active;
     float shortest = kMostIdle;
     for (int i = 0; i < kWide; ++i) shortest = wait[i] < shortest ? wait[i] : shortest;
     return shortest > 1 ? static_cast<std::int32_t>(shortest) : 0;
+}
+
+/// Is there nothing to look at in this substep? What acts keeps its direction and its place on the wall until it has
+/// moved so far that they have changed.
+JET_INLINE bool isAsItWas(ContactBlock& c)
+{
+    if (c.idle == 0) return false;
+    --c.idle;
+    return !c.any || bits(c.active & (c.drift > kMostDrift * c.slop)) == 0;
 }
 
 void refresh(ContactBlock* blocks, std::size_t count, const Particles& particles, const ContactStep& step)
 {
     for (std::size_t i = 0; i < count; ++i) {
         ContactBlock& c = blocks[i];
-        if (c.idle > 0) {
-            --c.idle;
-            continue;
-        }
+        if (isAsItWas(c)) continue;
         decide(c, offsets(particles.position, c), offsets(particles.velocity, c), step);
         c.any = bits(c.active) != 0;
-        c.bounces = bits(c.active & (c.restitution > Floats{}) & (c.approach < all(-step.restSpeed))) != 0;
-        c.idle = c.any ? 0 : idleFor(c, step);
+        c.elastic = bits(c.active & (c.restitution > Floats{})) != 0;
+        c.bounces = false;
+        c.idle = idleFor(c, step);
+        c.drift = Floats{};
+    }
+}
+
+void meet(ContactBlock* blocks, std::size_t count, const Particles& particles, float restSpeed)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        ContactBlock& c = blocks[i];
+        if (!c.any || !c.elastic) continue;
+        const Offsets moving = offsets(particles.velocity, c);
+        c.approach = (moving.x - c.along * moving.edgeX) * c.normalX + (moving.y - c.along * moving.edgeY) * c.normalY;
+        c.bounces = bits(c.active & (c.restitution > Floats{}) & (c.approach < all(-restSpeed))) != 0;
     }
 }
 
@@ -177,7 +201,10 @@ JET_INLINE void solveOne(ContactBlock& c, const Particles& particles, const Cont
     const Floats relativeX = moving.x - c.along * moving.edgeX, relativeY = moving.y - c.along * moving.edgeY;
     const Floats speed = relativeX * c.normalX + relativeY * c.normalY;
     const Floats slide = relativeY * c.normalX - relativeX * c.normalY;
-    if (!push) c.separation += step.h * speed;
+    if (!push) {
+        c.separation += step.h * speed;
+        c.drift += step.h * (size(slide) + size(moving.edgeX) + size(moving.edgeY));
+    }
     const Flags apart = c.separation > zero;
     Floats bias = choose(apart, c.separation * step.inverseH, zero), massScale = one, impulseScale = zero;
     if (push) {
@@ -256,4 +283,4 @@ NearResult survey(const WallBlock* blocks, std::size_t count, const NearQuery& q
 
 }  // namespace
 
-const ContactKernels contacts{&refresh, &warm, &solve, &bounce, &survey};
+const ContactKernels contacts{&refresh, &meet, &warm, &solve, &bounce, &survey};

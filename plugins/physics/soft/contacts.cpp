@@ -13,7 +13,7 @@ constexpr int kBouncePasses = 4;
 // Pairs that move less than so many lengths in a step are looked at again only once they have moved that much further.
 constexpr double kSlowLengths = 0.1, kRoomLengths = 0.04;
 // Contacts that act get new seats once they are spread over this many times the lanes they need, and so many more.
-constexpr double kMostSpread = 1.1, kLeastSpread = 16;
+constexpr double kMostSpread = 1.25, kLeastSpread = 32;
 constexpr std::size_t kSlack = 256;  // touches that are over, and are kept for a while
 constexpr double kLeastSingle = 1e-15, kMostSingle = 1e15;
 
@@ -307,7 +307,7 @@ void Contacts::carryOver(const State& state, const Pair& before, const Pair& now
             if (source->wall != touch.wall) continue;
             touch.seat = std::exchange(source->seat, kNone);
             touch.stepImpulse = source->stepImpulse;
-            touch.engaged = source->engaged & source->active, touch.active = source->active;
+            touch.engaged = source->engaged & source->active, touch.active = source->active, touch.far = source->far;
             source->stepImpulse = 0;
         }
         for (; from < until; ++from) over(touches_[from]);
@@ -315,19 +315,23 @@ void Contacts::carryOver(const State& state, const Pair& before, const Pair& now
     for (; from < before.end; ++from) over(touches_[from]);
 }
 
-/// Gives each touch a lane in a block: first those that acted, so that their blocks are full.
+/// Gives each touch a lane in a block: first those that acted, so that their blocks are full; then those that are near,
+/// so that the blocks of the others can wait.
 void Contacts::seat(const State& state)
 {
     blocks_.clear();
     unseated_ = false;
-    for (const bool acted : {true, false}) {
+    const auto rankOf = [](const Touch& touch) {
+        return touch.active != 0 || touch.inside != 0 ? 0 : touch.far == 0 ? 1 : 2;
+    };
+    for (const int rank : {0, 1, 2}) {
         seated_.assign(state.nodes.size(), 0);
         filled_.fill(0);
         for (const Pair& pair : pairs_) {
             if (pair.resolve == 0) continue;
             for (Index i = pair.first; i < pair.end; ++i) {
                 Touch& touch = touches_[i];
-                if ((touch.active != 0 || touch.inside != 0) != acted) continue;
+                if (rankOf(touch) != rank) continue;
                 touch.seat = freeSeat(state.points.node[touch.point], state.points.node[state.walls.first[touch.wall]],
                                       state.points.node[state.walls.second[touch.wall]]);
                 fill(state, pair, touch);
@@ -390,19 +394,26 @@ void Contacts::fill(const State& state, const Pair& pair, const Touch& touch)
     block.normalImpulse[lane] = touch.normalImpulse, block.tangentImpulse[lane] = touch.tangentImpulse;
     block.stepImpulse[lane] = touch.stepImpulse;
     block.active[lane] = touch.active != 0 ? -1 : 0;
+    block.far[lane] = touch.far != 0 ? -1 : 0;
     block.along[lane] = touch.along;
     block.any |= touch.active != 0;
 }
 
-void Contacts::push(State& state, double h, double gravity)
+void Contacts::refresh(State& state, double h, double gravity)
 {
     if (blocks_.empty()) return;
     const double hertz = std::min(kHertz, kHertzPerSubstepRate / h);
     kept_ = false;
     step_ = {static_cast<float>(h), static_cast<float>(1 / h), static_cast<float>(4 * gravity * h), softness(hertz, h),
              softness(2 * hertz, h)};
+    kernels_->refresh(blocks_.data(), blocks_.size(), particlesOf(state), step_);
+}
+
+void Contacts::push(State& state)
+{
+    if (blocks_.empty()) return;
     const Particles particles = particlesOf(state);
-    kernels_->refresh(blocks_.data(), blocks_.size(), particles, step_);
+    kernels_->meet(blocks_.data(), blocks_.size(), particles, step_.restSpeed);
     kernels_->warm(blocks_.data(), blocks_.size(), particles);
     kernels_->solve(blocks_.data(), blocks_.size(), particles, step_, true);
 }
@@ -434,6 +445,7 @@ void Contacts::keep(const Pair& pair)
         const Index lane = touch.seat % kWide;
         touch.active = block.active[lane] != 0 && block.any;
         touch.engaged = block.engaged[lane] != 0;
+        touch.far = block.far[lane] != 0;
         touch.along = block.along[lane];
         touch.normalImpulse = block.normalImpulse[lane], touch.tangentImpulse = block.tangentImpulse[lane];
         touch.stepImpulse = block.stepImpulse[lane];

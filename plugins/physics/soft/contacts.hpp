@@ -3,8 +3,8 @@
 // bodies, goes by contact_finder.hpp and contact_solver.hpp; the rules are the same: a candidate for each wall a point
 // may reach in the step, taken up once it really comes to it; "Soft Step" over the substeps, with warm starting.
 //
-// Order of calls: find -> each substep push and relax; travel each time before positions are predicted anew, and once
-// the step is over; keep before what is here is read or saved.
+// Order of calls: find -> each substep refresh, push and relax; travel each time before positions are predicted anew,
+// and once the step is over; keep before what is here is read or saved.
 //
 // A pair of slow bodies is surveyed further than they come in the step, and looked at again only once they have used up
 // that room: what rests costs nothing but solving. How far a body went is summed over the steps (path_).
@@ -34,7 +34,9 @@ public:
     /// step.
     void find(State&, const WorldSettings&, const std::vector<Motion>&, std::span<const BodyPair>, double dt,
               bool first);
-    void push(State&, double h, double gravity);
+    /// At the start of a substep, before anything pushes.
+    void refresh(State&, double h, double gravity);
+    void push(State&);
     void relax(State&);
     /// Takes the state of the contacts out of the blocks, where it is while they are solved.
     void keep();
@@ -65,6 +67,7 @@ public:
         with.list(pairs_, [&](Pair& pair) { with(pair); });
         with.list(touches_, [&](Touch& touch) {
             with(touch.point), with(touch.wall), with(touch.inside), with(touch.engaged), with(touch.active);
+            with(touch.far);
             with(touch.insets), with(touch.inset), with(touch.seat), with(touch.along), with(touch.normalImpulse),
                 with(touch.tangentImpulse);
             with(touch.stepImpulse);
@@ -89,6 +92,7 @@ private:
         Index point = 0, wall = 0;
         Index seat = kNone;                                            // block * 8 + lane; kNone: not solved
         std::uint8_t inside = 0, engaged = 0, active = 0, insets = 0;  // insets: 1 first end, 2 second
+        std::uint8_t far = 1;                                          // may long be left unseen while it does not act
         float inset = 0;                                               // units the wall ends before such an end
         float along = 0, normalImpulse = 0, tangentImpulse = 0, stepImpulse = 0;
     };

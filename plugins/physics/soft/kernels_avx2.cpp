@@ -49,6 +49,56 @@ struct Avx2 {
         _mm_storeu_ps(y, _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
     }
 
+    /// Two pairs of doubles from two places.
+    static __m256d two(const double* low, const double* high)
+    {
+        return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
+    }
+
+    /// Origins of four frames, and pairs of doubles anywhere from them.
+    struct Origins {
+        __m256d low, high;
+        explicit Origins(const double* of) : low(two(of, of + kStride)), high(two(of + 2 * kStride, of + 3 * kStride))
+        {
+        }
+        void narrow(const double* from, const std::uint32_t* node, float* x, float* y) const
+        {
+            const auto at = [=](int i) { return from + 2 * std::size_t{node[i]}; };
+            const __m128 first = _mm256_cvtpd_ps(_mm256_sub_pd(two(at(0), at(1)), low));
+            const __m128 second = _mm256_cvtpd_ps(_mm256_sub_pd(two(at(2), at(3)), high));
+            _mm_storeu_ps(x, _mm_shuffle_ps(first, second, _MM_SHUFFLE(2, 0, 2, 0)));
+            _mm_storeu_ps(y, _mm_shuffle_ps(first, second, _MM_SHUFFLE(3, 1, 3, 1)));
+        }
+        static constexpr std::size_t kStride = sizeof(Frame) / sizeof(double);
+    };
+
+    /// Two bodies at a time; returns how many were done.
+    static std::size_t accelerateAlike(double* velocity, const double* inverseMass, const std::uint32_t* nodeAt,
+                                       std::size_t rows, std::size_t count, const VelocityStep* steps, const Planes& in)
+    {
+        std::size_t lane = 0;
+        for (; lane + 2 <= count; lane += 2) {
+            const VelocityStep &own = steps[lane], &next = steps[lane + 1];
+            const __m256d gravity = _mm256_setr_pd(own.gravityX, own.gravityY, next.gravityX, next.gravityY);
+            const __m256d h = _mm256_set1_pd(own.h), kept = _mm256_set1_pd(own.kept), none = _mm256_setzero_pd();
+            for (std::size_t at = lane; at < 8 * rows; at += 8) {
+                const std::size_t n = nodeAt[at], m = nodeAt[at + 1];
+                double *v = velocity + 2 * n, *w = velocity + 2 * m;
+                const __m256d inverse = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loaddup_pd(inverseMass + n)),
+                                                             _mm_loaddup_pd(inverseMass + m), 1);
+                const __m128 force = _mm_unpacklo_ps(_mm_castsi128_ps(_mm_loadu_si64(in.fx + at)),
+                                                     _mm_castsi128_ps(_mm_loadu_si64(in.fy + at)));
+                const __m256d fall = _mm256_and_pd(gravity, _mm256_cmp_pd(inverse, none, _CMP_GT_OQ));
+                const __m256d change =
+                    _mm256_mul_pd(h, _mm256_add_pd(fall, _mm256_mul_pd(inverse, _mm256_cvtps_pd(force))));
+                const __m256d now = _mm256_mul_pd(kept, _mm256_add_pd(two(v, w), change));
+                _mm_storeu_pd(v, _mm256_castpd256_pd128(now));
+                _mm_storeu_pd(w, _mm256_extractf128_pd(now, 1));
+            }
+        }
+        return lane;
+    }
+
     /// Two nodes at a time; returns how many were done.
     static std::size_t accelerate(double* velocity, const double* inverseMass, std::size_t nodes,
                                   const VelocityStep& step, const Planes& in)

@@ -171,14 +171,13 @@ struct KernelSet {
                             std::size_t rows, const Frame* frames, const Planes& out)
     {
         const __m128 none = _mm_setzero_ps();
-        for (std::size_t at = 0; at < 8 * rows; at += 4) {
-            const std::uint32_t* node = nodeAt + at;
-            const Frame* frame = frames + (at & 4);
-            narrow([=](int i) { return position + 2 * std::size_t{node[i]}; }, [=](int i) { return &frame[i].x; },
-                   out.x + at, out.y + at);
-            narrow([=](int i) { return velocity + 2 * std::size_t{node[i]}; }, [=](int i) { return &frame[i].vx; },
-                   out.vx + at, out.vy + at);
-            _mm_storeu_ps(out.fx + at, none), _mm_storeu_ps(out.fy + at, none);
+        for (std::size_t half = 0; half < 8; half += 4) {
+            const typename V::Origins places(&frames[half].x), moving(&frames[half].vx);
+            for (std::size_t at = half; at < 8 * rows; at += 8) {
+                places.narrow(position, nodeAt + at, out.x + at, out.y + at);
+                moving.narrow(velocity, nodeAt + at, out.vx + at, out.vy + at);
+                _mm_storeu_ps(out.fx + at, none), _mm_storeu_ps(out.fy + at, none);
+            }
         }
     }
 
@@ -252,7 +251,8 @@ struct KernelSet {
                                 std::size_t rows, std::size_t count, const VelocityStep* steps, const Planes& in)
     {
         // Body by body: their particles lie together.
-        for (std::size_t lane = 0; lane < count; ++lane) {
+        std::size_t lane = force ? 0 : V::accelerateAlike(velocity, inverseMass, nodeAt, rows, count, steps, in);
+        for (; lane < count; ++lane) {
             const Push push(steps[lane]);
             for (std::size_t row = 0; row < rows; ++row) {
                 const std::size_t at = 8 * row + lane, n = nodeAt[at];

@@ -51,6 +51,23 @@ struct Sse2 {
         KernelSet<Sse2>::narrow([=](int i) { return from + 2 * i; }, [=](int) { return origin; }, x, y);
     }
 
+    /// Origins of four frames, and pairs of doubles anywhere from them.
+    struct Origins {
+        const double* first;
+        explicit Origins(const double* of) : first(of) {}
+        void narrow(const double* from, const std::uint32_t* node, float* x, float* y) const
+        {
+            constexpr std::size_t kStride = sizeof(Frame) / sizeof(double);
+            KernelSet<Sse2>::narrow([=](int i) { return from + 2 * std::size_t{node[i]}; },
+                                    [&](int i) { return first + kStride * static_cast<std::size_t>(i); }, x, y);
+        }
+    };
+
+    static std::size_t accelerateAlike(double*, const double*, const std::uint32_t*, std::size_t, std::size_t,
+                                       const VelocityStep*, const Planes&)
+    {
+        return 0;
+    }
     static std::size_t accelerate(double*, const double*, std::size_t, const VelocityStep&, const Planes&) { return 0; }
 
     /// From node n on, until one has a component of velocity that is not below `slow`; returns that, or `nodes`.

@@ -1,0 +1,179 @@
+// The kernels of cloud_kernels.hpp, included once by the file of each instruction set, in a namespace of its own.
+
+namespace {
+
+#define JET_ALWAYS __attribute__((always_inline))
+
+using Two = Lanes<double>;  // x y of one particle, x y of the next
+using Bits = LaneTypes<double>::Mask;
+
+JET_INLINE Two both(double x, double y) { return Two{x, y, x, y}; }
+JET_INLINE Two all(double value) { return Two{} + value; }
+JET_INLINE Two swapped(const Two& v) { return __builtin_shufflevector(v, v, 1, 0, 3, 2); }
+JET_INLINE Two turned(const Two& v) { return swapped(v) * both(-1, 1); }  // by a right angle
+JET_INLINE Two most(const Two& a, const Two& b) { return a > b ? a : b; }
+/// x² + y² of each particle, twice.
+JET_INLINE Two squares(const Two& v)
+{
+    const Two own = v * v;
+    return own + swapped(own);
+}
+JET_INLINE bool anySet(const Bits& mask)
+{
+#ifdef __AVX2__
+    return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
+    return _mm_movemask_pd((__m128d)__builtin_shufflevector(mask, mask, 0, 1)) != 0 ||
+           _mm_movemask_pd((__m128d)__builtin_shufflevector(mask, mask, 2, 3)) != 0;
+#endif
+}
+JET_INLINE Two root(const Two& v)
+{
+#ifdef __AVX2__
+    return (Two)_mm256_sqrt_pd((__m256d)v);
+#else
+    const auto low = _mm_sqrt_pd((__m128d)__builtin_shufflevector(v, v, 0, 1));
+    const auto high = _mm_sqrt_pd((__m128d)__builtin_shufflevector(v, v, 2, 3));
+    return Two{low[0], low[1], high[0], high[1]};
+#endif
+}
+JET_INLINE double sumX(const Two& v) { return v[0] + v[2]; }
+JET_INLINE double sumY(const Two& v) { return v[1] + v[3]; }
+
+/// Vectors of two particles; a last one alone is taken twice.
+JET_INLINE Two vectors(const double* from, std::size_t n, bool two)
+{
+    Two v;
+    if (two) {
+        __builtin_memcpy(&v, from + 2 * n, sizeof v);
+    } else {
+        v = both(from[2 * n], from[2 * n + 1]);
+    }
+    return v;
+}
+/// Masses; that of one taken twice counts once.
+JET_INLINE Two masses(const double* from, std::size_t n, bool two)
+{
+    const double second = two ? from[n + 1] : 0;
+    return Two{from[n], from[n], second, second};
+}
+JET_INLINE void store(double* to, std::size_t n, bool two, const Two& v)
+{
+    if (two) {
+        __builtin_memcpy(to + 2 * n, &v, sizeof v);
+    } else {
+        to[2 * n] = v[0], to[2 * n + 1] = v[1];
+    }
+}
+
+/// Calls act(n, two) for each two particles from n on.
+template <class Act>
+JET_INLINE void eachTwo(std::size_t count, Act&& act)
+{
+    std::size_t n = 0;
+    for (; n + 2 <= count; n += 2) act(n, true);
+    if (n < count) act(n, false);
+}
+
+CloudSums sums(const Cloud& cloud)
+{
+    CloudSums sums;
+    if (cloud.count == 0) return sums;
+    const Two from = both(cloud.position[0], cloud.position[1]);
+    Two mass{}, place{}, moving{}, own{}, turning{}, along{}, across{};
+    eachTwo(cloud.count, [&](std::size_t n, bool two) JET_ALWAYS {
+        const Two m = masses(cloud.mass, n, two), at = vectors(cloud.position, n, two) - from;
+        const Two weighed = m * at, speed = vectors(cloud.velocity, n, two);
+        mass += m, place += weighed, moving += m * speed, own += weighed * at, turning += weighed * swapped(speed);
+        if (!cloud.rest) return;
+        const Two arm = vectors(cloud.rest, n, two);
+        along += arm * weighed, across += arm * swapped(weighed);
+    });
+    sums.mass = sumX(mass);
+    const double x = sumX(place) / sums.mass, y = sumY(place) / sums.mass;
+    sums.vx = sumX(moving) / sums.mass, sums.vy = sumY(moving) / sums.mass;
+    const double inertia = sumX(own) + sumY(own) - sums.mass * (x * x + y * y);
+    sums.inertia = inertia > 0 ? inertia : 0;
+    sums.momentum = sumX(turning) - sumY(turning) - sums.mass * (x * sums.vy - y * sums.vx);
+    sums.along = sumX(along) + sumY(along);
+    sums.across = sumX(across) - sumY(across);
+    sums.x = cloud.position[0] + x, sums.y = cloud.position[1] + y;
+    return sums;
+}
+
+/// What of the velocities is not the motion's.
+JET_INLINE Two ownVelocity(const Two& velocity, const Two& arm, const CloudMotion& motion)
+{
+    return velocity - both(motion.vx, motion.vy) - all(motion.omega) * turned(arm);
+}
+JET_INLINE Two goals(const Two& rest, const CloudMotion& motion)
+{
+    return all(motion.c) * rest + all(motion.s) * turned(rest);
+}
+
+CloudStray stray(const Cloud& cloud, const CloudMotion& motion)
+{
+    const Two centre = both(motion.x, motion.y);
+    Two off{}, speed{};
+    eachTwo(cloud.count, [&](std::size_t n, bool two) JET_ALWAYS {
+        const Two arm = vectors(cloud.position, n, two) - centre;
+        speed = most(speed, squares(ownVelocity(vectors(cloud.velocity, n, two), arm, motion)));
+        if (cloud.rest) off = most(off, squares(goals(vectors(cloud.rest, n, two), motion) - arm));
+    });
+    return {off[0] > off[2] ? off[0] : off[2], speed[0] > speed[2] ? speed[0] : speed[2]};
+}
+
+CloudPulled pull(const Cloud& cloud, const CloudMotion& motion, const CloudPull& by, double* change)
+{
+    const Two centre = both(motion.x, motion.y), tolerance = all(by.tolerance);
+    const Two tolerated = tolerance * tolerance;
+    Two pulled{}, turn{}, damped{}, dampedTurn{};
+    CloudPulled result;
+    eachTwo(cloud.count, [&](std::size_t n, bool two) JET_ALWAYS {
+        const Two arm = vectors(cloud.position, n, two) - centre;
+        const Two away = goals(vectors(cloud.rest, n, two), motion) - arm, squared = squares(away);
+        const Bits drawn = squared > tolerated;
+        Two sum{};
+        if (anySet(drawn)) {
+            result.any = true;
+            const Two elastic = (Two)((Bits)(all(by.elastic) * (1 - tolerance / root(squared)) * away) & drawn);
+            const Two own = ownVelocity(vectors(cloud.velocity, n, two), arm, motion);
+            const Two damping = (Two)((Bits)(all(-by.damped) * own) & drawn);
+            const Two m = masses(cloud.mass, n, two);
+            pulled += m * elastic, turn += m * arm * swapped(elastic);
+            damped += m * damping, dampedTurn += m * arm * swapped(damping);
+            sum = elastic + damping;
+        }
+        store(change, n, two, sum);
+    });
+    result.x = sumX(pulled), result.y = sumY(pulled), result.turn = sumX(turn) - sumY(turn);
+    result.dampedX = sumX(damped), result.dampedY = sumY(damped),
+    result.dampedTurn = sumX(dampedTurn) - sumY(dampedTurn);
+    return result;
+}
+
+void give(const Cloud& cloud, const CloudMotion& motion, const CloudReturn& back, const double* change,
+          double* velocity)
+{
+    const Two centre = both(motion.x, motion.y), net = both(back.x, back.y);
+    eachTwo(cloud.count, [&](std::size_t n, bool two) JET_ALWAYS {
+        const Two arm = vectors(cloud.position, n, two) - centre, goal = goals(vectors(cloud.rest, n, two), motion);
+        const Two more = vectors(change, n, two) + net + all(back.goal) * turned(goal) + all(back.place) * turned(arm);
+        store(velocity, n, two, vectors(velocity, n, two) + more);
+    });
+}
+
+double farthest(const double* position, const double* from, const double* moving, double t, std::size_t count)
+{
+    Two far{};
+    eachTwo(count, [&](std::size_t n, bool two) JET_ALWAYS {
+        Two off = vectors(position, n, two) - vectors(from, n, two);
+        if (moving) off -= all(t) * vectors(moving, n, two);
+        far = most(far, squares(off));
+    });
+    return far[0] > far[2] ? far[0] : far[2];
+}
+
+}  // namespace
+
+const CloudKernels clouds{&sums, &stray, &pull, &give, &farthest};
