@@ -44,9 +44,6 @@ public:
     /// room, and what they meet in it is to be updated too. False: there are none.
     bool expectHits(const State&, const WorldSettings&, double dt);
 
-    /// Does the pair hit, in this step, so hard that what lies behind must be known?
-    bool hits(const RigidContact&, double dt) const;
-
     /// Is the pair to be looked at in this step?
     bool due(const RigidContact& c) const { return c.due || drift_[c.bodyA] + drift_[c.bodyB] > c.slop; }
     /// The same for one without points. Cheaper, and says less often yes: not before its bodies may have come together.
@@ -71,9 +68,13 @@ public:
     bool anyDisturbed() const { return disturbed_; }
     /// All that was due has been looked at.
     void settled() { disturbed_ = false; }
-    /// Brings the pair's points up to date; false: they are far apart and the pair is to be forgotten. Different
-    /// contacts may be updated at once.
-    bool update(RigidContact&, double dt);
+    /// What was seen of a pair.
+    struct Look {
+        bool kept = true;   // false: they are far apart and the pair is to be forgotten
+        bool hits = false;  // so hard, in this step, that what lies behind must be known
+    };
+    /// Brings the pair's points up to date. Different contacts may be updated at once.
+    Look update(RigidContact&, double dt);
     void forget(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
@@ -160,7 +161,6 @@ private:
     float closingSpeed(const RigidContact&) const;
     bool reuse(RigidContact&, const Relative&, float reach) const;
     void renew(RigidContact&, const Manifold&, const Relative&, float reach) const;
-    bool isSlow(Index contact) const;
     bool staysApart(const RigidContact&, const Relative&, float reach);
     void noteGap(const RigidContact&, float gap);
     void foresee(RigidContact&, const Relative&, double dt) const;

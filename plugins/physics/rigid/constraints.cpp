@@ -100,13 +100,13 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             if (!collider.due(c)) continue;
             const Place place = placeOf(static_cast<int>(block.colour), group * kWidth + lane);
             fetch(c, place);
-            const bool kept = collider.update(c, dt);
-            block.foresees |= collider.hits(c, dt);
-            if (kept && c.count > 0 && c.resolve && resolve) {
+            const Collider::Look look = collider.update(c, dt);
+            block.foresees |= look.hits;
+            if (look.kept && c.count > 0 && c.resolve && resolve) {
                 write(collider, c, place);
                 block.hardest = std::max(block.hardest, collider.hitSpeed(c));
             } else {
-                block.outcomes.push_back({index[lane], kept});
+                block.outcomes.push_back({index[lane], look.kept});
             }
         }
     }
@@ -126,9 +126,9 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
         const std::size_t last = std::min(idleDue_.size(), (i + 1) * kIdleABlock);
         for (std::size_t at = i * kIdleABlock; at < last; ++at) {
             RigidContact& c = contacts[idleDue_[at]];
-            const bool kept = collider.update(c, dt);
-            blocks_[i].foresees |= collider.hits(c, dt);
-            if (!kept || c.touching || c.count > 0) blocks_[i].outcomes.push_back({idleDue_[at], kept});
+            const Collider::Look look = collider.update(c, dt);
+            blocks_[i].foresees |= look.hits;
+            if (!look.kept || c.touching || c.count > 0) blocks_[i].outcomes.push_back({idleDue_[at], look.kept});
         }
     });
     for (std::size_t i = 0; i < blocks; ++i) foresees_ |= blocks_[i].foresees;

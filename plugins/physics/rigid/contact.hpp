@@ -74,7 +74,8 @@ struct RigidContact {
     float stepImpulse = 0;                                  // greatest of the step in which they began to touch
     bool due = true;                                        // to be looked at in the next step in any case
     bool foreseen = false;                                  // its point is one of a hit later in the step
-    std::uint16_t unused = 0;
+    bool hits = false;                                      // so hard that what lies behind must be known
+    std::uint8_t unused = 0;
 
     /// Units between the surfaces where they are nearest; huge when nothing is near.
     float nearest() const

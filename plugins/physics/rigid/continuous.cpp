@@ -69,21 +69,6 @@ float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& 
     return t / dtf;
 }
 
-/// Can the contact's bodies not come together fast enough for a hit? As a cheap bound.
-bool Collider::isSlow(Index contact) const
-{
-    const Nearing& n = nearing_[contact];
-    return 4 * (poses_[n.bodyA].travel + poses_[n.bodyB].travel) < n.thin;
-}
-
-bool Collider::hits(const RigidContact& c, double dt) const
-{
-    if (c.foreseen) return true;
-    // What overlaps from a hit before is hit again.
-    if (!fast_ || c.nearest() > 0 || isSlow(static_cast<Index>(&c - contacts_.data()))) return false;
-    return closingSpeed(c) * static_cast<float>(dt) > kFast * std::min(parts_[c.partA].length, parts_[c.partB].length);
-}
-
 bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt)
 {
     if (!fast_) return false;
@@ -92,10 +77,8 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
         const RigidContact& c = contacts_[i];
         if (!isPlaced(places_[i]) || !c.resolve || c.count == 0) continue;
         const float surprised = std::max(surprise_[c.bodyA], surprise_[c.bodyB]);
-        if (surprised == 0 && !c.foreseen && isSlow(i)) continue;
-        const bool hit = hits(c, dt);
-        if (!hit && surprised == 0) continue;
-        const float travel = std::max(hit ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
+        if (!c.hits && surprised == 0) continue;
+        const float travel = std::max(c.hits ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
         const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
         if (!(a + b > 0)) continue;
         const auto gain = [&](double share) {

@@ -10,13 +10,7 @@ namespace jet::physics {
 namespace {
 
 constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
-
-/// Floats as integers in the same order.
-std::uint32_t ordered(float x)
-{
-    const auto bits = std::bit_cast<std::uint32_t>(x);
-    return bits & 0x80000000U ? ~bits : bits | 0x80000000U;
-}
+constexpr std::uint64_t kCellsPerPart = 8;
 
 }  // namespace
 
@@ -85,14 +79,14 @@ void KeySet::grow()
 
 void PairSweep::resize(std::size_t parts, float typical)
 {
-    if (typical_ != typical) std::fill(keys_.begin(), keys_.end(), kUnknown);
+    if (typical_ != typical) std::fill(classes_.begin(), classes_.end(), kNoClass);
     typical_ = typical;
     if (boxes_.size() == parts) return;
-    for (std::size_t part = sorted_.size(); part < parts; ++part) sorted_.push_back({0, static_cast<Index>(part)});
     boxes_.resize(parts), before_.resize(parts, kNowhere);
     if (moved_.size() < parts) anyMoved_ = true;
     moved_.resize(parts, 1), pieceOf_.resize(parts, 0);
-    keys_.resize(parts, kUnknown);
+    classes_.resize(parts, kNoClass), cells_.resize(parts), buckets_.resize(parts), sorted_.resize(parts);
+    shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
     for (auto* list : {&minX_, &minY_, &maxX_, &maxY_}) list->resize(parts + 4);
     for (std::size_t k = 0; k < 4; ++k) minX_[parts + k] = std::numeric_limits<float>::infinity();
 }
@@ -110,54 +104,72 @@ bool PairSweep::meetsPieces(Index part, const FatBox& box) const
     return std::any_of(pieces.begin(), pieces.end(), [&](const FatBox& piece) { return piece.meets(box); });
 }
 
-std::uint64_t PairSweep::rowOf(float y, float height)
-{
-    constexpr double kMost = 1 << 27;
-    return static_cast<std::uint64_t>(
-        std::clamp(std::floor(static_cast<double>(y) / static_cast<double>(height)), -kMost, kMost) + kMost);
-}
-
-std::uint64_t PairSweep::keyOf(int which, std::uint64_t row, float x)
-{
-    return static_cast<std::uint64_t>(which) << 61 | row << 32 | ordered(x);
-}
-
-std::uint64_t PairSweep::keyOf(const FatBox& box) const
+std::uint8_t PairSweep::classOf(const FatBox& box) const
 {
     const float extent = 1.001F * std::max(box.maxX - box.minX, box.maxY - box.minY);
     int which = 0;
-    while (which < kClasses - 1 && !(extent <= rowHeight(which))) ++which;
-    return keyOf(which, rowOf(box.minY, rowHeight(which)), box.minX);
+    while (which < kLast && !(extent <= cellSize(which))) ++which;
+    return static_cast<std::uint8_t>(which);
 }
 
-/// The order hardly changes between sweeps: insertion moves little. A scene that was thrown about is sorted afresh.
+/// Which buckets there are: those of the tables, those of hashed cells, one of the last class.
+void PairSweep::layOut()
+{
+    for (Grid& grid : grids_) {
+        grid.members = 0;
+        grid.minX = grid.minY = 3e38F, grid.maxX = grid.maxY = -3e38F;
+    }
+    for (Index part = 0; part < boxes_.size(); ++part) {
+        const FatBox& box = boxes_[part];
+        if (moved_[part] != 0 || classes_[part] == kNoClass) classes_[part] = classOf(box);
+        Grid& grid = grids_[classes_[part]];
+        ++grid.members;
+        grid.minX = std::min(grid.minX, box.minX), grid.maxX = std::max(grid.maxX, box.minX);
+        grid.minY = std::min(grid.minY, box.minY), grid.maxY = std::max(grid.maxY, box.minY);
+    }
+    hashed_ = 0;
+    for (int which = 0; which < kLast; ++which) {
+        Grid& grid = grids_[which];
+        if (grid.members == 0) continue;
+        grid.perRow = 1 / static_cast<double>(cellSize(which)), grid.perColumn = kColumnsPerCell * grid.perRow;
+        grid.row = lineOf(grid.minY, grid.perRow), grid.lastRow = lineOf(grid.maxY, grid.perRow);
+        grid.column = lineOf(grid.minX, grid.perColumn), grid.lastColumn = lineOf(grid.maxX, grid.perColumn);
+        const std::uint64_t cells = (grid.lastRow - grid.row + 1) * (grid.lastColumn - grid.column + 1);
+        grid.table = cells <= kCellsPerPart * grid.members + 64;
+        if (!grid.table) grid.perColumn = grid.perRow;
+        grid.first = hashed_;
+        if (grid.table) hashed_ += static_cast<std::size_t>(cells);
+    }
+    begin_.assign(hashed_ + (std::size_t{1} << (64 - shift_)) + 2, Index{0});
+}
+
+/// By buckets, and by index within them: counted, then placed.
 void PairSweep::sort()
 {
-    const std::size_t count = sorted_.size();
-    for (Index part = 0; part < count; ++part)
-        if (moved_[part] != 0 || keys_[part] == kUnknown) keys_[part] = keyOf(boxes_[part]);
-    for (Entry& entry : sorted_) entry.key = keys_[entry.part];
-    std::size_t moves = 0;
-    for (std::size_t i = 1; i < count && moves < 16 * count; ++i) {
-        const Entry entry = sorted_[i];
-        std::size_t at = i;
-        for (; at > 0 && entry < sorted_[at - 1]; --at) sorted_[at] = sorted_[at - 1];
-        sorted_[at] = entry;
-        moves += i - at;
+    layOut();
+    for (Index part = 0; part < boxes_.size(); ++part) {
+        const int which = classes_[part];
+        const Grid& grid = grids_[which];
+        const FatBox& box = boxes_[part];
+        std::size_t bucket = begin_.size() - 2;
+        if (which != kLast) {
+            const std::uint64_t row = lineOf(box.minY, grid.perRow), column = lineOf(box.minX, grid.perColumn);
+            cells_[part] = cellOf(which, row, column);
+            bucket = grid.table ? grid.first + static_cast<std::size_t>(row - grid.row) * grid.width() +
+                                      static_cast<std::size_t>(column - grid.column)
+                                : hashed_ + hashOf(cells_[part]);
+        }
+        buckets_[part] = static_cast<Index>(bucket);
+        ++begin_[bucket];
     }
-    if (moves >= 16 * count) std::sort(sorted_.begin(), sorted_.end());
-    for (std::size_t i = 0; i < count; ++i) {
-        const FatBox& box = boxes_[sorted_[i].part];
-        minX_[i] = box.minX, maxX_[i] = box.maxX, minY_[i] = box.minY, maxY_[i] = box.maxY;
+    Index before = 0;
+    for (Index& begin : begin_) begin = before += begin;  // where each ends
+    for (auto part = static_cast<Index>(boxes_.size()); part-- > 0;) {
+        const Index at = --begin_[buckets_[part]];
+        sorted_[at] = part;
+        const FatBox& box = boxes_[part];
+        minX_[at] = box.minX, maxX_[at] = box.maxX, minY_[at] = box.minY, maxY_[at] = box.maxY;
     }
-    for (int which = 0; which <= kClasses; ++which)
-        classes_[which] = which == kClasses ? count : firstFrom(static_cast<std::uint64_t>(which) << 61);
-}
-
-std::size_t PairSweep::firstFrom(std::uint64_t key) const
-{
-    const auto before = [](const Entry& entry, std::uint64_t wanted) { return entry.key < wanted; };
-    return static_cast<std::size_t>(std::lower_bound(sorted_.begin(), sorted_.end(), key, before) - sorted_.begin());
 }
 
 void PairSweep::finish()
@@ -168,7 +180,9 @@ void PairSweep::finish()
 
 std::size_t PairSweep::bytes() const
 {
-    return boxes_.capacity() * (2 * sizeof(FatBox) + sizeof(Entry) + sizeof(std::uint64_t) + 4 * sizeof(float) + 1);
+    return boxes_.capacity() *
+               (2 * sizeof(FatBox) + sizeof(std::uint64_t) + 3 * sizeof(Index) + 4 * sizeof(float) + 2) +
+           begin_.capacity() * sizeof(Index);
 }
 
 }  // namespace jet::physics

@@ -1,10 +1,11 @@
-// The broad phase: which parts may meet? Boxes with room to move in lie in rows as high as they are, sorted by their
-// left sides; parts of very different size in rows of their own. Only what has left its box is sought in them, and as
-// long as every part keeps within its box nothing is done (see docs/decisions/0045).
+// The broad phase: which parts may meet? Boxes with room to move in lie in the cells of a grid that is hashed, those of
+// very different size in grids of their own. Only what has left its box is sought in them, and as long as every part
+// keeps within its box nothing is done (see docs/decisions/0045 and 0046).
 #pragma once
 
 #include "contact.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #if defined(__SSE2__)
@@ -33,7 +34,7 @@ private:
 
 class PairSweep {
 public:
-    /// `typical`: units, the size of most parts; it decides how wide rows are.
+    /// `typical`: units, the size of most parts; it decides how wide cells are.
     void resize(std::size_t parts, float typical);
     std::size_t parts() const { return boxes_.size(); }
     const FatBox& box(Index part) const { return boxes_[part]; }
@@ -63,8 +64,8 @@ public:
     void sweep(Found&& found)
     {
         sort();
-        for (std::size_t i = 0; i < sorted_.size(); ++i)
-            if (moved_[sorted_[i].part] != 0) meet(sorted_[i].part, found);
+        for (Index part = 0; part < boxes_.size(); ++part)
+            if (moved_[part] != 0) meet(part, found);
         finish();
     }
 
@@ -78,30 +79,70 @@ public:
     void rebuild()
     {
         forget();
-        std::fill(keys_.begin(), keys_.end(), kUnknown);
+        std::fill(classes_.begin(), classes_.end(), kNoClass);
     }
     std::size_t bytes() const;
 
 private:
-    /// Parts of a class are at most so high and wide as its rows; each class is four times the one before.
-    static constexpr int kClasses = 8;
+    /// Parts of a class are at most as high and wide as its cells; each class is four times the one before. The last
+    /// has no bound, and no cells either.
+    static constexpr int kClasses = 8, kLast = kClasses - 1;
+    static constexpr std::uint8_t kNoClass = 255;
+    static constexpr int kColumnsPerCell = 4;
     static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
     static constexpr FatBox kNowhere{3e38F, 3e38F, -3e38F, -3e38F};
 
-    struct Entry {
-        std::uint64_t key;  // class, row, left side
-        Index part;
-        bool operator<(const Entry& other) const { return key < other.key || (key == other.key && part < other.part); }
+    /// The cells of a class: a table from its first row and column on, narrow columns one after the other, so that a
+    /// part of a row is one stretch. Where what is in it lies too far apart, its cells are hashed instead.
+    struct Grid {
+        double perRow = 0, perColumn = 0;  // 1 / units
+        std::uint64_t row = 0, lastRow = 0, column = 0, lastColumn = 0;
+        std::size_t first = 0;  // bucket
+        std::size_t members = 0;
+        float minX = 0, minY = 0, maxX = 0, maxY = 0;  // of left upper corners
+        bool table = false;
+        std::size_t width() const { return static_cast<std::size_t>(lastColumn - column + 1); }
+    };
+    /// Cells a box may find others in.
+    struct Lines {
+        std::uint64_t row, lastRow, column, lastColumn;
+        std::uint64_t rows() const { return lastRow < row ? 0 : lastRow - row + 1; }
+        std::uint64_t columns() const { return lastColumn < column ? 0 : lastColumn - column + 1; }
     };
 
-    float rowHeight(int which) const { return typical_ * static_cast<float>(1 << (2 * which + 1)); }
-    static std::uint64_t rowOf(float y, float height);
-    static std::uint64_t keyOf(int which, std::uint64_t row, float x);
-    std::uint64_t keyOf(const FatBox&) const;
+    /// Most boxes with their room are less than two and a half of the typical length high and wide.
+    float cellSize(int which) const { return 2.5F * typical_ * static_cast<float>(1 << (2 * which)); }
+    static std::uint64_t cellOf(int which, std::uint64_t row, std::uint64_t column)
+    {
+        return static_cast<std::uint64_t>(which) << 56 | row << 28 | column;
+    }
+    /// Which row or column: 28 bits. What lies beyond the last ones is in them.
+    static std::uint64_t lineOf(float at, double perLine)
+    {
+        constexpr double kMost = (1 << 27) - 1;
+        const double x = std::min(std::max(static_cast<double>(at) * perLine, -kMost), kMost);
+        const auto whole = static_cast<std::int64_t>(x);
+        return static_cast<std::uint64_t>(whole - (x < static_cast<double>(whole)) + (1 << 27));
+    }
+    std::size_t hashOf(std::uint64_t cell) const
+    {
+        return static_cast<std::size_t>(cell * 0x9e3779b97f4a7c15ULL >> shift_);
+    }
+    std::uint8_t classOf(const FatBox&) const;
+    void layOut();
+    Lines linesFor(const Grid& grid, float size, const FatBox& box) const
+    {
+        Lines l{lineOf(box.minY - size, grid.perRow), lineOf(box.maxY, grid.perRow),
+                lineOf(box.minX - size, grid.perColumn), lineOf(box.maxX, grid.perColumn)};
+        if (grid.table) {
+            l.row = std::max(l.row, grid.row), l.lastRow = std::min(l.lastRow, grid.lastRow);
+            l.column = std::max(l.column, grid.column), l.lastColumn = std::min(l.lastColumn, grid.lastColumn);
+        }
+        return l;
+    }
     void sort();
     void finish();
     bool meetsPieces(Index part, const FatBox&) const;
-    std::size_t firstFrom(std::uint64_t key) const;
 
     template <class Found>
     void meet(Index part, Found&& found)
@@ -112,35 +153,54 @@ private:
     template <class Found>
     void meet(Index part, const FatBox& box, Found&& found)
     {
-        for (int which = 0; which < kClasses; ++which) {
-            const std::size_t first = classes_[which], last = classes_[which + 1];
-            if (first == last) continue;
-            // The last class has no bound.
-            const float height = rowHeight(which);
-            const std::uint64_t low = rowOf(box.minY - height, height), high = rowOf(box.maxY, height);
-            if (which == kClasses - 1 || high - low >= last - first) {
-                scan(part, box, first, last, found);
-                continue;
+        Lines lines[kLast];
+        std::uint64_t stretches = 0;
+        for (int which = 0; which < kLast; ++which) {
+            const Grid& grid = grids_[which];
+            if (grid.members == 0) continue;
+            const Lines& l = lines[which] = linesFor(grid, cellSize(which), box);
+            stretches += l.rows() * (grid.table ? 1 : l.columns());
+        }
+        // As many as boxes: all are looked at.
+        if (4 * stretches > boxes_.size() + 64) return scan(part, box, 0, boxes_.size(), kUnknown, found);
+        for (int which = 0; which < kLast; ++which)
+            if (grids_[which].members > 0) meet(part, box, which, lines[which], found);
+        if (const std::size_t large = grids_[kLast].members; large > 0)
+            scan(part, box, boxes_.size() - large, boxes_.size(), kUnknown, found);
+    }
+    template <class Found>
+    void meet(Index part, const FatBox& box, int which, const Lines& l, Found&& found)
+    {
+        const Grid& grid = grids_[which];
+        if (grid.table) {
+            if (l.columns() == 0) return;
+            for (std::uint64_t row = l.row; row <= l.lastRow; ++row) {
+                const std::size_t start = grid.first + static_cast<std::size_t>(row - grid.row) * grid.width();
+                scan(part, box, begin_[start + static_cast<std::size_t>(l.column - grid.column)],
+                     begin_[start + static_cast<std::size_t>(l.lastColumn - grid.column) + 1], kUnknown, found);
             }
-            for (std::uint64_t row = low; row <= high; ++row) {
-                const std::size_t begin = firstFrom(keyOf(which, row, box.minX - height));
-                const std::uint64_t end = keyOf(which, row, box.maxX);
-                std::size_t k = begin;
-                while (k < last && sorted_[k].key <= end) ++k;
-                if (k > begin) scan(part, box, begin, k, found);
+            return;
+        }
+        for (std::uint64_t row = l.row; row <= l.lastRow; ++row) {
+            for (std::uint64_t column = l.column; column <= l.lastColumn; ++column) {
+                const std::uint64_t cell = cellOf(which, row, column);
+                const std::size_t bucket = hashed_ + hashOf(cell);
+                scan(part, box, begin_[bucket], begin_[bucket + 1], cell, found);
             }
         }
     }
+    /// `cell`: the one that is meant, as others may be in its bucket; kUnknown: any.
     template <class Found>
-    void scan(Index part, const FatBox& box, std::size_t first, std::size_t last, Found&& found)
+    void scan(Index part, const FatBox& box, std::size_t first, std::size_t last, std::uint64_t cell, Found&& found)
     {
         for (std::size_t j = first; j < last; j += 4) {
             // The lists are padded by boxes at infinity.
             unsigned hits = near(j, box);
             if (last - j < 4) hits &= (1U << (last - j)) - 1;
             for (; hits != 0; hits &= hits - 1) {
-                const Index other = sorted_[j + static_cast<std::size_t>(__builtin_ctz(hits))].part;
+                const Index other = sorted_[j + static_cast<std::size_t>(__builtin_ctz(hits))];
                 if (other == part || (moved_[other] != 0 && other < part)) continue;
+                if (cell != kUnknown && cells_[other] != cell) continue;
                 if (pieceOf_[other] != 0 && !meetsPieces(other, box)) continue;
                 const FatBox& was = moved_[other] != 0 ? before_[other] : boxes_[other];
                 const bool met = was.meets(before_[part]) && pieceOf_[part] == 0 && pieceOf_[other] == 0;
@@ -173,9 +233,14 @@ private:
     std::vector<std::uint8_t> moved_;
     bool anyMoved_ = false;
     float typical_ = 1;
-    std::vector<std::uint64_t> keys_;  // [parts]
-    std::vector<Entry> sorted_;
-    std::size_t classes_[kClasses + 1] = {};        // where they begin
+    std::vector<std::uint8_t> classes_;  // [parts]
+    std::vector<std::uint64_t> cells_;   // [parts]
+    std::vector<Index> buckets_;         // [parts]
+    std::vector<Index> begin_;           // [buckets + 1]
+    std::size_t hashed_ = 0;             // first bucket of hashed cells
+    int shift_ = 63;                     // of a product of 64 bits, to the number of a hash
+    Grid grids_[kClasses];
+    std::vector<Index> sorted_;                     // parts, bucket by bucket
     std::vector<float> minX_, minY_, maxX_, maxY_;  // in the order of sorted_
 };
 

@@ -58,21 +58,21 @@ bool Collider::fromBehind(const RigidContact& c) const
     return false;
 }
 
-bool Collider::update(RigidContact& c, double dt)
+Collider::Look Collider::update(RigidContact& c, double dt)
 {
-    c.due = false;
-    if (!sweep_.box(c.partA).meets(sweep_.box(c.partB))) return false;
+    c.due = c.hits = false;
+    if (!sweep_.box(c.partA).meets(sweep_.box(c.partB))) return {.kept = false};
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
     const Relative at = relative(c.bodyA, c.bodyB);
     const float shorter = std::min(a.length, b.length);
     const float travel = closingSpeed(c) * static_cast<float>(dt);
     const float reach =
         kSpeculative * c.slop + std::min(travel, kFast * shorter) + surprise_[c.bodyA] + surprise_[c.bodyB];
-    if (staysApart(c, at, kSpeculative * c.slop + travel + surprise_[c.bodyA] + surprise_[c.bodyB])) return true;
+    if (staysApart(c, at, kSpeculative * c.slop + travel + surprise_[c.bodyA] + surprise_[c.bodyB])) return {};
     if (!reuse(c, at, reach)) {
         if ((travel > 0.1F * shorter || c.count == 0) && isLonger(c.partA, c.partB) && apart(c.partA, c.partB) &&
             apart(c.partB, c.partA))
-            return false;
+            return {.kept = false};
         const Manifold m = meet(c, at, reach);
         renew(c, m, at, reach);
         noteGap(c, m.count == 0 ? m.gap : 0);
@@ -80,7 +80,9 @@ bool Collider::update(RigidContact& c, double dt)
         if (c.count == 0 && c.resolve && travel > kFast * shorter) foresee(c, at, dt);
         decideSide(c);
     }
-    return true;
+    // What overlaps from a hit before is hit again.
+    c.hits = c.foreseen || (fast_ && c.nearest() <= 0 && travel > kFast * shorter);
+    return {.hits = c.hits};
 }
 
 /// Is a pair without points farther apart than `reach`, after what it has moved since it was last looked at?
