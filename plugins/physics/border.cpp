@@ -1,5 +1,7 @@
 #include "border.hpp"
 
+#include "room.hpp"
+
 namespace jet::physics {
 
 namespace {
@@ -17,6 +19,8 @@ void addRing(State& state, std::span<const Index> ring)
     Walls& walls = state.walls;
     const auto start = static_cast<Index>(walls.size());
     const auto count = static_cast<Index>(ring.size());
+    makeRoom(count, walls.first, walls.second, walls.previous, walls.next, walls.outward, walls.firstEnd,
+             walls.secondEnd);
     for (Index i = 0; i < count; ++i) {
         walls.first.push_back(ring[i]);
         walls.second.push_back(ring[(i + 1) % count]);
@@ -34,11 +38,12 @@ std::int8_t outerSide(const State& state, const BodyRecord& body, Index wall)
 {
     const Vec2 along = wallVector(state, body, wall);
     const double length = along.norm();
-    const double extent = body.grid.bounds().size().maxCoeff();
+    const EdgeGrid& grid = gridOf(state, body);
+    const double extent = grid.bounds().size().maxCoeff();
     if (!(length > 1e-9 * extent)) return 0;
     const Vec2 middle = state.gridFrame(body)[state.walls.first[wall]] + 0.4931 * along;
     const Vec2 aside = perpendicular(along) * (1e-7 * extent / length);
-    const bool plus = body.grid.inside(middle + aside), minus = body.grid.inside(middle - aside);
+    const bool plus = grid.inside(middle + aside), minus = grid.inside(middle - aside);
     if (plus == minus) return 0;
     return plus ? -1 : 1;
 }
@@ -56,35 +61,43 @@ void markCollidable(State& state, const BodyRecord& body)
 
 }  // namespace
 
-void rebuildGrid(State& state, BodyRecord& body)
+void rebuildGrid(const State& state, const BodyRecord& body)
 {
     const auto& at = state.gridFrame(body);
     std::vector<EdgeGrid::Edge>& edges = state.scratch.edges;
     edges.clear();
     for (Index w = body.walls.first; w < body.walls.end(); ++w)
         edges.push_back({at[state.walls.first[w]], at[state.walls.second[w]]});
-    body.grid.build(edges);
+    if (!body.grid) body.grid = std::make_unique<EdgeGrid>();
+    body.grid->build(edges);
+}
+
+const EdgeGrid& gridOf(const State& state, const BodyRecord& body)
+{
+    if (!body.grid) rebuildGrid(state, body);
+    return *body.grid;
 }
 
 void updateCorners(State& state, const BodyRecord& body)
 {
     Walls& walls = state.walls;
-    for (Index p = body.points.first; p < body.points.end(); ++p) state.points.normal[p] = Vec2(0, 0);
+    std::vector<Vec2>& normals = state.points.normal;
+    const bool known = !normals.empty();
+    if (known) std::fill_n(normals.begin() + body.points.first, body.points.count, Vec2(0, 0));
     for (Index w = body.walls.first; w < body.walls.end(); ++w) {
         const Vec2 along = wallVector(state, body, w);
         const double length = along.norm();
         if (walls.outward[w] == 0 || !(length > 0)) continue;
         const Vec2 normal = perpendicular(along) * (walls.outward[w] / length);
-        state.points.normal[walls.first[w]] += normal;
-        state.points.normal[walls.second[w]] += normal;
+        if (known) normals[walls.first[w]] += normal, normals[walls.second[w]] += normal;
         const auto end = [&](const Vec2& away) {
             return away.dot(normal) < -kBluntSine * away.norm() ? WallEnd::Sharp : WallEnd::Blunt;
         };
         walls.firstEnd[w] = end(-wallVector(state, body, walls.previous[w]));
         walls.secondEnd[w] = end(wallVector(state, body, walls.next[w]));
     }
-    for (Index p = body.points.first; p < body.points.end(); ++p) {
-        Vec2& normal = state.points.normal[p];
+    for (Index p = body.points.first; known && p < body.points.end(); ++p) {
+        Vec2& normal = normals[p];
         const double length = normal.norm();
         normal = length > 1e-6 ? Vec2(normal / length) : Vec2(0, 0);
     }
@@ -108,7 +121,8 @@ Region measureRegion(const State& state, const BodyRecord& body)
     Region region;
     if (body.walls.count == 0) return region;
     const auto& at = state.gridFrame(body);
-    const Vec2 origin = body.grid.bounds().center();
+    const EdgeGrid& grid = gridOf(state, body);
+    const Vec2 origin = grid.bounds().center();
     Vec2 moment(0, 0);
     double second = 0;
     for (Index w = body.walls.first; w < body.walls.end(); ++w) {
@@ -120,7 +134,7 @@ Region measureRegion(const State& state, const BodyRecord& body)
         moment += (twice / 6) * (a + b);
         second += twice / 12 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
     }
-    const Vec2 size = body.grid.bounds().size();
+    const Vec2 size = grid.bounds().size();
     if (!(region.area > 1e-9 * size.squaredNorm())) return Region();
     const Vec2 centre = moment / region.area;
     region.centroid = origin + centre;

@@ -15,7 +15,9 @@ void addBorders(State&, BodyRecord& body, std::span<const std::vector<Index>> ri
 /// Corner kinds of the walls and normals of the points, in the frame of the body's grid.
 void updateCorners(State&, const BodyRecord& body);
 /// The grid over the body's walls as they are now.
-void rebuildGrid(State&, BodyRecord& body);
+void rebuildGrid(const State&, const BodyRecord& body);
+/// The grid over the body's walls; made when it is asked for, as most rigid bodies never need one.
+const EdgeGrid& gridOf(const State&, const BodyRecord& body);
 
 struct Region {
     double area = 0;     // units²

@@ -1,5 +1,7 @@
 #include "narrow_phase.hpp"
 
+#include "border.hpp"
+
 namespace jet::physics {
 
 namespace {
@@ -27,6 +29,7 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
     a_ = &state_.bodies[bodyA];
     b_ = &state_.bodies[bodyB];
     if (b_->walls.count == 0) return;
+    grid_ = &gridOf(state_, *b_);
     frame_ = &state_.gridFrame(*b_);
     const Motion& motionA = motions_[bodyA];
     const Motion& motionB = motions_[bodyB];
@@ -53,13 +56,14 @@ void NarrowPhase::collide(Index bodyA, Index bodyB, const ContactPoint& pattern,
             approach.at = unrotated(state_.nodes.rotation[nodeB], at - state_.nodes.position[nodeB]);
             approach.normal = unrotated(state_.nodes.rotation[nodeB], approach.normal);
         }
-        if (b_->grid.bounds().inflated(approach.reach).contains(approach.at)) touch(approach, contact, found);
+        if (grid_->bounds().inflated(approach.reach).contains(approach.at)) touch(approach, contact, found);
     }
 }
 
 void NarrowPhase::collideSelf(Index body, const ContactPoint& pattern, std::vector<ContactPoint>& found)
 {
     a_ = b_ = &state_.bodies[body];
+    grid_ = &gridOf(state_, *b_);
     frame_ = &state_.gridFrame(*b_);
     const Motion& motion = motions_[body];
     ContactPoint contact = pattern;
@@ -73,7 +77,7 @@ void NarrowPhase::collideSelf(Index body, const ContactPoint& pattern, std::vect
         const double reach = (own - motion.velocity).norm() * dt_ + motion.stray + 4 * pattern.slop + pattern.thickness;
         contact.point = p;
         const Vec2 span(reach, reach);
-        b_->grid.visit(Box(at - span, at + span), [&](Index edge) {
+        grid_->visit(Box(at - span, at + span), [&](Index edge) {
             WallView seen;
             contact.wall = b_->walls.first + edge;
             if (state_.walls.first[contact.wall] == p || state_.walls.second[contact.wall] == p) return;
@@ -100,7 +104,7 @@ void NarrowPhase::gatherPoints(const BodyRecord& a, const Box& near)
     Box local;
     for (const Vec2& corner : {near.min, near.max, Vec2(near.min.x(), near.max.y()), Vec2(near.max.x(), near.min.y())})
         local.extend(unrotated(state_.nodes.rotation[node], corner - state_.nodes.position[node]));
-    a.grid.visit(local, [&](Index edge) {
+    gridOf(state_, a).visit(local, [&](Index edge) {
         take(state_.walls.first[a.walls.first + edge]);
         take(state_.walls.second[a.walls.first + edge]);
     });
@@ -138,7 +142,7 @@ void NarrowPhase::touch(const Approach& approach, const ContactPoint& pattern, s
     bool onSurface = false;
     const std::size_t before = found.size();
     const Vec2 span(approach.reach, approach.reach);
-    b_->grid.visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
+    grid_->visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
         WallView seen;
         contact.wall = b_->walls.first + edge;
         if (!view(contact.wall, approach.at, seen) || seen.separation < -kTouchDepth * pattern.slop ||
@@ -161,7 +165,7 @@ void NarrowPhase::touch(const Approach& approach, const ContactPoint& pattern, s
         found.resize(before + kMostWalls);
     }
     // On the border "inside" is a matter of rounding; the walls found in front of the point answer for it.
-    if (onSurface || !b_->grid.inside(approach.at)) return;
+    if (onSurface || !grid_->inside(approach.at)) return;
     contact.wall = wallToLeaveThrough(approach);
     if (contact.wall == kNone) return;
     contact.inside = true;
@@ -178,12 +182,12 @@ bool NarrowPhase::yields(Index wall, const std::vector<WallEnd>& ends, const std
 
 Index NarrowPhase::wallToLeaveThrough(const Approach& approach) const
 {
-    const double extent = b_->grid.bounds().size().maxCoeff();
+    const double extent = grid_->bounds().size().maxCoeff();
     for (double radius = approach.reach;; radius *= 2) {
         Index nearest = kNone, opposed = kNone;
         double nearestScore = radius, opposedScore = radius;
         const Vec2 span(radius, radius);
-        b_->grid.visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
+        grid_->visit(Box(approach.at - span, approach.at + span), [&](Index edge) {
             WallView seen;
             const Index wall = b_->walls.first + edge;
             if (!view(wall, approach.at, seen) || seen.separation >= 0 || seen.distance > radius) return;

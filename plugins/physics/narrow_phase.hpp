@@ -52,6 +52,7 @@ private:
     // Of the pair at work.
     const BodyRecord* a_ = nullptr;
     const BodyRecord* b_ = nullptr;
+    const EdgeGrid* grid_ = nullptr;  // of b_
     const std::vector<Vec2>* frame_ = nullptr;
     std::vector<Index>& candidates_;
 };

@@ -1,5 +1,8 @@
 #include "queries.hpp"
 
+#include "border.hpp"
+#include "room.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +17,7 @@ constexpr int kMostPieces = 32;   // of a ray through a large outline
 
 void Queries::addSoft(Index body)
 {
+    makeRoom(1, firstItem_, items_);
     firstItem_.push_back(static_cast<Index>(items_.size()));
     Item item;
     item.body = body, item.whole = true;
@@ -23,6 +27,7 @@ void Queries::addSoft(Index body)
 
 void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def)
 {
+    makeRoom(1, firstItem_, items_);
     firstItem_.push_back(static_cast<Index>(items_.size()));
     outdated_ = true;
     const BodyRecord& body = state.bodies[handle];
@@ -106,7 +111,7 @@ void Queries::eachEdge(const State& state, const Item& item, const Box& region, 
             visit(QueryEdge{at[state.walls.first[w]], at[state.walls.second[w]], state.walls.outward[w]});
     };
     if (item.whole && body.rigid && walls.count > kManyWalls) {
-        body.grid.visit(region, [&](Index e) { edge(walls.first + e); });
+        gridOf(state, body).visit(region, [&](Index e) { edge(walls.first + e); });
         return;
     }
     for (Index w = walls.first; w < walls.end(); ++w) edge(w);
@@ -116,7 +121,7 @@ bool Queries::inside(const State& state, const Item& item, const Vec2& at)
 {
     if (item.round) return (at - nearestOnSegment(at, item.a, item.b)).norm() <= item.radius;
     const BodyRecord& body = state.bodies[item.body];
-    if (item.whole && body.rigid) return body.grid.inside(at);
+    if (item.whole && body.rigid) return gridOf(state, body).inside(at);
     const Range walls = wallsOf(state, item);
     const std::vector<Vec2>& points = state.gridFrame(body);
     std::vector<EdgeGrid::Edge> edges;

@@ -6,13 +6,13 @@
 
 namespace jet::physics {
 
-/// Room for `more` elements in each of the vectors; those that must grow have a sixteenth to spare.
+/// Room for `more` elements in each of the vectors; those that must grow have an eighth to spare.
 template <class... Vectors>
 void makeRoom(std::size_t more, Vectors&... vectors)
 {
     const auto grow = [more](auto& values) {
         const std::size_t needed = values.size() + more;
-        if (needed > values.capacity()) values.reserve(std::max(needed, values.size() + values.size() / 16));
+        if (needed > values.capacity()) values.reserve(std::max(needed, values.size() + values.size() / 8));
     };
     (grow(vectors), ...);
 }

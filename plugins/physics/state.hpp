@@ -11,6 +11,7 @@
 #include <jet/physics.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace jet::physics {
@@ -46,7 +47,9 @@ struct Points {
     std::vector<Index> node;
     std::vector<Vec2> local;     // from the node, in its frame; zero for particles
     std::vector<Vec2> position;  // scene units; true after updatePoints()
-    std::vector<Vec2> normal;    // unit, out of the body at this point, in the frame of its grid; zero when unknown
+    // [points] unit, out of the body at this point, in the frame of its grid; zero when unknown. Empty as long as
+    // nobody is met by points and walls.
+    std::vector<Vec2> normal;
     std::vector<std::uint8_t> collidable;  // is it tested against other bodies?
 
     std::size_t size() const { return node.size(); }
@@ -94,7 +97,8 @@ struct BodyRecord {
     Index pieceCount = 1;
     std::vector<Index> pieces;   // [particles] of a torn body; empty: whole
     std::vector<Vec2> restArms;  // soft: particles from the centre of mass at rest
-    EdgeGrid grid;               // rigid: in the node's frame; soft: in the scene's, as of the last detection
+    // Rigid: in the node's frame, and null until gridOf() is asked; soft: in the scene's, as of the last detection.
+    mutable std::unique_ptr<EdgeGrid> grid;
 };
 
 /// What is read after a step, one entry a body.

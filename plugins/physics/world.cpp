@@ -36,6 +36,7 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     body.walls.first = static_cast<Index>(state_.walls.size());
     body.springs.first = springs_.springCount();
     body.angularSprings.first = springs_.angularCount();
+    makeRoom(1, state_.bodies);
     return state_.bodies.emplace_back(std::move(body));
 }
 
@@ -45,8 +46,16 @@ void World::addPoint(Index node, const Vec2& local, const Vec2& position)
     points.node.push_back(node);
     points.local.push_back(local);
     points.position.push_back(position);
-    points.normal.push_back(Vec2(0, 0));
     points.collidable.push_back(0);
+    if (!points.normal.empty()) points.normal.push_back(Vec2(0, 0));
+}
+
+/// A body comes that is met by points and walls.
+void World::keepNormals()
+{
+    if (!state_.points.normal.empty()) return;
+    state_.points.normal.assign(state_.points.size(), Vec2(0, 0));
+    for (const BodyRecord& body : state_.bodies) updateCorners(state_, body);
 }
 
 namespace {
@@ -80,7 +89,8 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     makeRoom(count, nodes.position, nodes.velocity, nodes.angle, nodes.omega, nodes.rotation, nodes.mass, nodes.invMass,
              nodes.invInertia, nodes.force, nodes.torque, nodes.body, stepForces_);
     Points& points = state_.points;
-    makeRoom(count, points.node, points.local, points.position, points.normal, points.collidable);
+    makeRoom(count, points.node, points.local, points.position, points.collidable);
+    if (!points.normal.empty()) makeRoom(count, points.normal);
     // Points keep the order of the definition; nodes take one that suits the springs.
     const std::vector<Index> particleOf = soft::orderOf(def);
     std::vector<Index> nodeOf(count);
@@ -100,6 +110,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     std::vector<std::vector<Index>> rings = def.borders;
     for (auto& ring : rings)
         for (Index& index : ring) index += body.points.first;
+    keepNormals();
     addBorders(state_, body, rings);
     Box bounds;
     for (const Vec2& at : def.particles) bounds.extend(at);
@@ -123,9 +134,14 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     const auto handle = static_cast<BodyHandle>(state_.bodies.size());
     BodyRecord& body = newBody(def.common, true);
     body.nodes.count = 1;
-    state_.nodes.add(handle, Vec2(0, 0), def.mass, 0, 0);
+    Nodes& nodes = state_.nodes;
+    makeRoom(1, nodes.position, nodes.velocity, nodes.angle, nodes.omega, nodes.rotation, nodes.mass, nodes.invMass,
+             nodes.invInertia, nodes.force, nodes.torque, nodes.body, stepForces_);
+    nodes.add(handle, Vec2(0, 0), def.mass, 0, 0);
+    Points& points = state_.points;
     std::vector<std::vector<Index>> rings;
     for (const auto& border : outlinesOf(def)) {
+        makeRoom(border.size(), points.node, points.local, points.position, points.collidable);
         auto& ring = rings.emplace_back(border.size());
         std::iota(ring.begin(), ring.end(), static_cast<Index>(state_.points.size()));
         for (const Vec2& at : border) addPoint(body.nodes.first, at, at);
@@ -134,6 +150,11 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     addBorders(state_, body, rings);
     setRigidMass(body, def);
     body.simple = rigid_.add(state_, handle, def);
+    if (body.simple) {
+        body.grid.reset();
+    } else {
+        keepNormals();
+    }
     queries_.addRigid(state_, handle, def);
     return finishBody(def.common);
 }
@@ -183,6 +204,8 @@ BodyHandle World::finishBody(const BodyCommon& common)
     const auto handle = static_cast<BodyHandle>(state_.bodies.size() - 1);
     complex_ += !state_.bodies[handle].simple;
     BodyReadings& readings = state_.readings;
+    makeRoom(1, readings.position, readings.velocity, readings.angle, readings.omega, readings.bounds,
+             readings.firstPoint);
     readings.position.push_back(Vec2(0, 0));
     readings.velocity.push_back(Vec2(0, 0));
     readings.angle.push_back(0);

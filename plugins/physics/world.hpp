@@ -86,6 +86,7 @@ public:
 private:
     BodyRecord& newBody(const BodyCommon&, bool rigid);
     void addPoint(Index node, const Vec2& local, const Vec2& position);
+    void keepNormals();
     BodyHandle finishBody(const BodyCommon&);
     void setRigidMass(BodyRecord&, const RigidBodyDef&);
     void applyMotion(BodyRecord&);

@@ -1,6 +1,8 @@
 // Where bodies are, their boxes, and the pairs whose boxes meet.
 #include "collider.hpp"
 
+#include "room.hpp"
+
 #include <chrono>
 #include <cmath>
 
@@ -26,6 +28,7 @@ float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37));
 
 Index Collider::addBody(const RigidBody& body)
 {
+    makeRoom(1, bodies_);
     bodies_.push_back(body);
     bodies_.back().firstPart = static_cast<Index>(parts_.size());
     return static_cast<Index>(bodies_.size() - 1);
@@ -41,6 +44,7 @@ void Collider::addPart(Part part, const PartOutline* outline)
     body.finest = body.partCount == 0 ? part.length : std::min(body.finest, part.length);
     body.reach = std::max(body.reach, part.reach);
     ++body.partCount;
+    makeRoom(1, parts_);
     parts_.push_back(part);
     typical_ = 0;
 }
@@ -362,6 +366,7 @@ void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
     n.bodyA = a, n.bodyB = b, n.slop = c.slop;
     n.thin = kThin * std::min(parts_[partA].thickness, parts_[partB].thickness);
     if (free_.empty()) {
+        makeRoom(1, contacts_, places_, nearing_);
         contacts_.push_back(c), places_.push_back(kIdle), nearing_.push_back(n);
         return;
     }
