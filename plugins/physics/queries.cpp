@@ -20,7 +20,7 @@ void Queries::addSoft(Index body)
     makeRoom(1, firstItem_, items_);
     firstItem_.push_back(static_cast<Index>(items_.size()));
     Item item;
-    item.body = body, item.whole = true;
+    item.body = body;
     items_.push_back(item);
     outdated_ = true;
 }
@@ -34,7 +34,6 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
     Item item;
     item.body = handle;
     if (def.shapes.empty() || !def.borders.empty()) {
-        item.whole = true;
         items_.push_back(item);
         return;
     }
@@ -46,12 +45,14 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
         while (ring < body.walls.end() && (ring == wall || state.walls.previous[ring] == ring - 1)) ++ring;
         item.walls = {wall, ring - wall};
         wall = ring;
-        item.round = shape.kind == ShapeDef::Kind::Circle || shape.kind == ShapeDef::Kind::Capsule;
-        if (item.round) {
-            item.a = shape.points.front() - centre, item.b = shape.points.back() - centre;
-            item.radius = shape.radius;
+        item.round = kNone;
+        if (shape.kind == ShapeDef::Kind::Circle || shape.kind == ShapeDef::Kind::Capsule) {
+            item.round = static_cast<Index>(rounds_.size());
+            makeRoom(1, rounds_);
+            rounds_.push_back({shape.points.front() - centre, shape.points.back() - centre, shape.radius});
         }
         if (shape.kind == ShapeDef::Kind::Chain) item.walls.count = static_cast<Index>(shape.points.size() - 1);
+        makeRoom(1, items_);
         items_.push_back(item);
     }
 }
@@ -65,18 +66,18 @@ Queries::Frame Queries::frameOf(const State& state, const Item& item)
 
 Range Queries::wallsOf(const State& state, const Item& item)
 {
-    return item.whole ? state.bodies[item.body].walls : item.walls;
+    return item.whole() ? state.bodies[item.body].walls : item.walls;
 }
 
 Box Queries::boxOf(const State& state, const Item& item) const
 {
     Box box;
-    if (item.round) {
+    if (const Round* round = roundOf(item)) {
         const Frame frame = frameOf(state, item);
-        box.extend(frame.out(item.a)), box.extend(frame.out(item.b));
-        return box.inflated(item.radius);
+        box.extend(frame.out(round->a)), box.extend(frame.out(round->b));
+        return box.inflated(round->radius);
     }
-    if (item.whole) return state.readings.bounds[item.body];
+    if (item.whole()) return state.readings.bounds[item.body];
     for (Index w = item.walls.first; w < item.walls.end(); ++w)
         box.extend(state.points.position[state.walls.first[w]]),
             box.extend(state.points.position[state.walls.second[w]]);
@@ -110,18 +111,19 @@ void Queries::eachEdge(const State& state, const Item& item, const Box& region, 
         if (state.walls.outward[w] != 0)
             visit(QueryEdge{at[state.walls.first[w]], at[state.walls.second[w]], state.walls.outward[w]});
     };
-    if (item.whole && body.rigid && walls.count > kManyWalls) {
+    if (item.whole() && body.rigid && walls.count > kManyWalls) {
         gridOf(state, body).visit(region, [&](Index e) { edge(walls.first + e); });
         return;
     }
     for (Index w = walls.first; w < walls.end(); ++w) edge(w);
 }
 
-bool Queries::inside(const State& state, const Item& item, const Vec2& at)
+bool Queries::inside(const State& state, const Item& item, const Vec2& at) const
 {
-    if (item.round) return (at - nearestOnSegment(at, item.a, item.b)).norm() <= item.radius;
+    if (const Round* round = roundOf(item))
+        return (at - nearestOnSegment(at, round->a, round->b)).norm() <= round->radius;
     const BodyRecord& body = state.bodies[item.body];
-    if (item.whole && body.rigid) return gridOf(state, body).inside(at);
+    if (item.whole() && body.rigid) return gridOf(state, body).inside(at);
     const Range walls = wallsOf(state, item);
     const std::vector<Vec2>& points = state.gridFrame(body);
     std::vector<EdgeGrid::Edge> edges;
@@ -133,13 +135,13 @@ bool Queries::inside(const State& state, const Item& item, const Vec2& at)
 }
 
 std::optional<QueryHit> Queries::castRay(const State& state, const Item& item, const Vec2& from, const Vec2& way,
-                                         double most)
+                                         double most) const
 {
     const Frame frame = frameOf(state, item);
     const Vec2 start = frame.in(from), along = unrotated(frame.turn, way);
     std::optional<QueryHit> best;
-    if (item.round) {
-        best = meetSegment(start, along, item.a, item.b, item.radius);
+    if (const Round* round = roundOf(item)) {
+        best = meetSegment(start, along, round->a, round->b, round->radius);
     } else {
         const int pieces = static_cast<int>(std::clamp<Index>(wallsOf(state, item).count / kManyWalls, 1, kMostPieces));
         for (int i = 0; i < pieces; ++i) {
@@ -176,7 +178,7 @@ std::optional<CastHit> Queries::rayCast(const State& state, const Vec2& from, co
 }
 
 /// In the item's frame.
-bool Queries::overlaps(const State& state, const Item& item, const CastShape& shape)
+bool Queries::overlaps(const State& state, const Item& item, const CastShape& shape) const
 {
     const auto within = [&](const Vec2& a, const Vec2& b, double radius) {
         const double all = (shape.radius + radius) * (1 - 1e-9);
@@ -191,7 +193,8 @@ bool Queries::overlaps(const State& state, const Item& item, const CastShape& sh
         }
         return shape.contains(0.5 * (a + b));
     };
-    if (item.round) return within(item.a, item.b, item.radius) || (shape.closed && shape.contains(item.a));
+    if (const Round* round = roundOf(item))
+        return within(round->a, round->b, round->radius) || (shape.closed && shape.contains(round->a));
     bool meets = false;
     eachEdge(state, item, shape.bounds(), [&](const QueryEdge& edge) { meets |= within(edge.a, edge.b, 0); });
     Vec2 middle(0, 0);
@@ -200,7 +203,7 @@ bool Queries::overlaps(const State& state, const Item& item, const CastShape& sh
 }
 
 std::optional<QueryHit> Queries::castShape(const State& state, const Item& item, const CastShape& moved,
-                                           const Vec2& way)
+                                           const Vec2& way) const
 {
     const Frame frame = frameOf(state, item);
     CastShape shape = moved;
@@ -212,8 +215,8 @@ std::optional<QueryHit> Queries::castShape(const State& state, const Item& item,
         return QueryHit{0, middle, way.squaredNorm() > 0 ? Vec2(-way.normalized()) : Vec2(0, 0)};
     }
     std::optional<QueryHit> best;
-    if (item.round) {
-        best = castAt(shape, along, item.a, item.b, item.radius);
+    if (const Round* round = roundOf(item)) {
+        best = castAt(shape, along, round->a, round->b, round->radius);
     } else {
         Box region = shape.bounds();
         region.extend(Vec2(region.min + along)), region.extend(Vec2(region.max + along));
@@ -248,10 +251,11 @@ std::optional<CastHit> Queries::shapeCast(const State& state, const ShapeDef& de
     return best;
 }
 
-bool Queries::meetsBox(const State& state, const Item& item, const Box& box)
+bool Queries::meetsBox(const State& state, const Item& item, const Box& box) const
 {
     const Frame frame = frameOf(state, item);
-    if (item.round) return boxDistance(box, frame.out(item.a), frame.out(item.b)) <= item.radius;
+    if (const Round* round = roundOf(item))
+        return boxDistance(box, frame.out(round->a), frame.out(round->b)) <= round->radius;
     Box local;
     for (const Vec2& corner : {box.min, box.max, Vec2(box.min.x(), box.max.y()), Vec2(box.max.x(), box.min.y())})
         local.extend(frame.in(corner));
@@ -274,17 +278,17 @@ std::vector<BodyHandle> Queries::overlapping(const State& state, const Box& box,
     return found;
 }
 
-std::optional<QueryHit> Queries::nearestOf(const State& state, const Item& item, const Vec2& scene, double reach)
+std::optional<QueryHit> Queries::nearestOf(const State& state, const Item& item, const Vec2& scene, double reach) const
 {
     const Frame frame = frameOf(state, item);
     const Vec2 point = frame.in(scene);
     std::optional<QueryHit> best;
-    if (item.round) {
-        const Vec2 axis = nearestOnSegment(point, item.a, item.b);
+    if (const Round* round = roundOf(item)) {
+        const Vec2 axis = nearestOnSegment(point, round->a, round->b);
         const Vec2 off = point - axis;
         const double away = off.norm();
         const Vec2 normal = away > 0 ? Vec2(off / away) : Vec2(0, -1);
-        best = QueryHit{std::abs(away - item.radius), axis + item.radius * normal, normal};
+        best = QueryHit{std::abs(away - round->radius), axis + round->radius * normal, normal};
         if (best->at > reach) return std::nullopt;
     } else {
         const Vec2 span(reach, reach);

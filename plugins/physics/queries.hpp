@@ -27,15 +27,23 @@ public:
     std::optional<CastHit> nearest(const State&, const Vec2& point, double reach, const QueryFilter&) const;
     bool contains(const State&, Index body, const Vec2& point) const;
 
-    std::size_t bytes() const { return items_.capacity() * sizeof(Item) + boxes_.capacity() * (sizeof(Box) + 100); }
+    std::size_t bytes() const
+    {
+        return items_.capacity() * sizeof(Item) + rounds_.capacity() * sizeof(Round) +
+               boxes_.capacity() * (sizeof(Box) + 100);
+    }
 
 private:
     /// An outline of a body, or a round shape of it.
     struct Item {
         Index body = 0;
-        bool round = false, whole = false;  // whole: all walls of the body
-        Range walls;                        // of a shape
-        Vec2 a, b;                          // round: the segment in the body's frame
+        Index round = kNone;  // into rounds_
+        Range walls;          // of a shape; none: all walls of the body
+        bool whole() const { return round == kNone && walls.count == 0; }
+    };
+    /// All within the radius of a segment, in the body's frame.
+    struct Round {
+        Vec2 a, b;
         double radius = 0;
     };
     /// From the scene to the frame the item's points are in.
@@ -48,19 +56,21 @@ private:
     static bool seen(const State&, Index body, const QueryFilter&);
     static Frame frameOf(const State&, const Item&);
     static Range wallsOf(const State&, const Item&);
+    const Round* roundOf(const Item& item) const { return item.round == kNone ? nullptr : &rounds_[item.round]; }
     Box boxOf(const State&, const Item&) const;
     /// Calls visit(edge) for each side of the item that may meet the region, which is in the item's frame.
     template <class Visit>
     static void eachEdge(const State&, const Item&, const Box& region, Visit&& visit);
-    static bool inside(const State&, const Item&, const Vec2& at);
-    static std::optional<QueryHit> castRay(const State&, const Item&, const Vec2& from, const Vec2& way, double most);
-    static std::optional<QueryHit> castShape(const State&, const Item&, const CastShape&, const Vec2& way);
-    static bool overlaps(const State&, const Item&, const CastShape&);
-    static bool meetsBox(const State&, const Item&, const Box&);
+    bool inside(const State&, const Item&, const Vec2& at) const;
+    std::optional<QueryHit> castRay(const State&, const Item&, const Vec2& from, const Vec2& way, double most) const;
+    std::optional<QueryHit> castShape(const State&, const Item&, const CastShape&, const Vec2& way) const;
+    bool overlaps(const State&, const Item&, const CastShape&) const;
+    bool meetsBox(const State&, const Item&, const Box&) const;
     /// Fraction is the distance.
-    static std::optional<QueryHit> nearestOf(const State&, const Item&, const Vec2& point, double reach);
+    std::optional<QueryHit> nearestOf(const State&, const Item&, const Vec2& point, double reach) const;
 
     std::vector<Item> items_;
+    std::vector<Round> rounds_;
     std::vector<Index> firstItem_;  // [bodies]
     std::vector<Box> boxes_;
     QueryTree tree_;
