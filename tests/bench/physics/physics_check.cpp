@@ -8,12 +8,13 @@
 //       simulated time; nothing may become NaN, escape or take more memory
 //   jet-physics-check growth
 //       what a step costs with 1,000 to 100,000 particles; it may grow as n log n does
+//   jet-physics-check memory
+//       bytes of the heap a body, a contact, a particle and a spring take
 //
 // A scene is a name of jet-bench-physics or a file.
 #include "bench/physics/engines.hpp"
+#include "bench/physics/memory_check.hpp"
 #include "bench/physics/scene_soft.hpp"
-
-#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,12 +83,6 @@ int snapshots(const Scene& scene, int steps)
     }
     std::printf("%-22s same future, in the same world and in a new one; %zu bytes\n", scene.name.c_str(), saved.size());
     return 0;
-}
-
-std::size_t heapInUse()
-{
-    const struct mallinfo2 info = mallinfo2();
-    return info.uordblks + info.hblkhd;
 }
 
 int soak(const Scene& scene, double minutes)
@@ -167,10 +162,11 @@ int run(int argc, char** argv)
 {
     const std::string mode = argc > 1 ? argv[1] : "";
     if (mode == "growth") return growths() > 0;
+    if (mode == "memory") return printMemory(), 0;
     if (mode != "hash" && mode != "snapshot" && mode != "soak")
         throw std::runtime_error(
             "usage: jet-physics-check hash [--plain] [--steps N] | snapshot [--steps N] | soak MINUTES   [SCENE...] | "
-            "growth");
+            "growth | memory");
     int next = 2;
     const double minutes = mode == "soak" ? std::stod(next < argc ? argv[next++] : "10") : 0;
     int steps = kSteps;
