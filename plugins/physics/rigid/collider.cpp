@@ -175,6 +175,7 @@ bool Collider::takePose(Index i, const State& state, float fall, double dt)
     const float straight =
         static_cast<float>(dt) * std::sqrt(pose.velocityX * pose.velocityX + pose.velocityY * pose.velocityY);
     pose.travel = turning + (body.moves ? fall : 0) + straight;
+    pose.reach = body.reach;
     drift_[i] = turning + straight;
     return pose.travel > 0.25F * body.finest;
 }

@@ -7,6 +7,7 @@
 
 #include "pairs.hpp"
 #include "pool.hpp"
+#include "sift.hpp"
 #include "weld.hpp"
 
 #include <jet/physics.hpp>
@@ -75,6 +76,8 @@ public:
     };
     /// Brings the pair's points up to date. Different contacts may be updated at once.
     Look update(RigidContact&, double dt);
+    /// Of up to eight contacts without points: a bit for each that update() would keep without points, and it is done.
+    std::uint32_t sift(const Index* which, std::size_t count, double dt, const Sieve&);
     void forget(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.

@@ -120,11 +120,17 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
     idleDue_.clear();
     for (Index contact = 0; contact < contacts.size(); ++contact)
         if (places[contact] == kIdle && collider.nears(contact)) idleDue_.push_back(contact);
+    const Sieve& pairs = sieve(shape_.choice);
     const std::size_t blocks = (idleDue_.size() + kIdleABlock - 1) / kIdleABlock;
     for (std::size_t i = 0; i < blocks; ++i) blockAt(i);
     pool_->run(blocks, [&](std::size_t i) {
-        const std::size_t last = std::min(idleDue_.size(), (i + 1) * kIdleABlock);
-        for (std::size_t at = i * kIdleABlock; at < last; ++at) {
+        const std::size_t first = i * kIdleABlock, last = std::min(idleDue_.size(), first + kIdleABlock);
+        std::uint32_t apart = 0;
+        for (std::size_t at = first; at < last; ++at) {
+            const std::size_t lane = (at - first) % Sieve::kPairs;
+            if (lane == 0)
+                apart = collider.sift(&idleDue_[at], std::min<std::size_t>(Sieve::kPairs, last - at), dt, pairs);
+            if ((apart >> lane & 1U) != 0) continue;
             RigidContact& c = contacts[idleDue_[at]];
             const Collider::Look look = collider.update(c, dt);
             blocks_[i].foresees |= look.hits;

@@ -33,15 +33,16 @@ struct RigidBody {
 };
 
 /// What collision needs to know of a body's motion, refreshed at the start of a step.
-struct Pose {
+struct alignas(16) Pose {
     double x = 0, y = 0;                            // scene units
     Vec2f turn{1, 0};                               // (cos, sin)
     float velocityX = 0, velocityY = 0, omega = 0;  // units / s, rad / s
     float travel = 0;                               // units its farthest point may move in this step
+    float reach = 0;                                // of its body, units
 };
 
 /// A part's box with room to move in; while the part keeps within, no new pairs are sought for it.
-struct FatBox {
+struct alignas(16) FatBox {
     float minX = 0, minY = 0, maxX = -1, maxY = -1;
     bool meets(const FatBox& b) const { return minX <= b.maxX && b.minX <= maxX && minY <= b.maxY && b.minY <= maxY; }
 };
@@ -54,28 +55,29 @@ inline constexpr Place kAsleep = 0xfffffffdU;  // between bodies that rest: its 
 inline constexpr bool isPlaced(Place place) { return place < kAsleep; }
 inline constexpr int kLaneBits = 26;
 
-/// Two parts whose boxes meet. Two cache lines; the impulses are the solver's while it has a constraint.
-struct RigidContact {
+/// Two parts whose boxes meet. Two cache lines, of which pairs without points need the first alone, in rows of 16
+/// bytes; the impulses are the solver's while it has a constraint.
+struct alignas(16) RigidContact {
     Index partA = 0, partB = 0;
-    Index bodyA = 0, bodyB = 0;  // rigid bodies
-    float friction = 0, restitution = 0;
-    float slop = 0;          // units: overlap left in peace
-    std::uint8_t count = 0;  // points
-    bool resolve = true;     // false: sensors, or a platform passed from behind
-    bool touching = false;   // pushed, or overlapped without being resolved, in the last step
-    bool passing = false;    // one-sided: came from behind and goes through until they are apart
+    Index bodyA = 0, bodyB = 0;    // rigid bodies
+    Relative at;                   // the pose the points were found in
+    float slop = 0;                // units: overlap left in peace
+    float separation[2] = {0, 0};  // units, when last looked at; at least, without points
+    float reach = 0;               // units the points were sought in
+    std::uint8_t count = 0;        // points
+    bool touching = false;         // pushed, or overlapped without being resolved, in the last step
+    bool passing = false;          // one-sided: came from behind and goes through until they are apart
+    bool resolve = true;           // false: sensors, or a platform passed from behind
+    bool due = true;               // to be looked at in the next step in any case
+    bool foreseen = false;         // its point is one of a hit later in the step
+    bool hits = false;             // so hard that what lies behind must be known
+    std::uint8_t unused = 0;
     std::uint16_t ids[2] = {0, 0};
-    Relative at;                                            // the pose the points were found in
-    float reach = 0;                                        // units they were sought in
+    float stepImpulse = 0;                                  // greatest of the step in which they began to touch
     Vec2f normal;                                           // in A's frame, from A to B
     Vec2f onA[2], onB[2];                                   // in the frames of their bodies
-    float separation[2] = {0, 0};                           // units, when last looked at; at least, without points
     float impulse[2] = {0, 0}, tangentImpulse[2] = {0, 0};  // of the last substep, mass units / s
-    float stepImpulse = 0;                                  // greatest of the step in which they began to touch
-    bool due = true;                                        // to be looked at in the next step in any case
-    bool foreseen = false;                                  // its point is one of a hit later in the step
-    bool hits = false;                                      // so hard that what lies behind must be known
-    std::uint8_t unused = 0;
+    float friction = 0, restitution = 0;
 
     /// Units between the surfaces where they are nearest; huge when nothing is near.
     float nearest() const

@@ -1,4 +1,5 @@
 // Which kernels the processor can run.
+#include "sift.hpp"
 #include "solver_data.hpp"
 
 namespace jet::physics {
@@ -21,5 +22,7 @@ const Kernels<double>& kernels<double>(KernelChoice choice)
 {
     return wide(choice) ? avx2::doubles : sse2::doubles;
 }
+
+const Sieve& sieve(KernelChoice choice) { return wide(choice) ? avx2::pairSieve : sse2::pairSieve; }
 
 }  // namespace jet::physics

@@ -106,13 +106,14 @@ bool PairSweep::meetsPieces(Index part, const FatBox& box) const
 
 std::uint8_t PairSweep::classOf(const FatBox& box) const
 {
+    if (box.maxX < box.minX) return kAbsent;
     const float extent = 1.001F * std::max(box.maxX - box.minX, box.maxY - box.minY);
     int which = 0;
     while (which < kLast && !(extent <= cellSize(which))) ++which;
     return static_cast<std::uint8_t>(which);
 }
 
-/// Which buckets there are: those of the tables, those of hashed cells, one of the last class.
+/// Which buckets there are: those of the tables, those of hashed cells, one of the last class, one of what is nowhere.
 void PairSweep::layOut()
 {
     for (Grid& grid : grids_) {
@@ -122,6 +123,7 @@ void PairSweep::layOut()
     for (Index part = 0; part < boxes_.size(); ++part) {
         const FatBox& box = boxes_[part];
         if (moved_[part] != 0 || classes_[part] == kNoClass) classes_[part] = classOf(box);
+        if (classes_[part] == kAbsent) continue;
         Grid& grid = grids_[classes_[part]];
         ++grid.members;
         grid.minX = std::min(grid.minX, box.minX), grid.maxX = std::max(grid.maxX, box.minX);
@@ -140,7 +142,7 @@ void PairSweep::layOut()
         grid.first = hashed_;
         if (grid.table) hashed_ += static_cast<std::size_t>(cells);
     }
-    begin_.assign(hashed_ + (std::size_t{1} << (64 - shift_)) + 2, Index{0});
+    begin_.assign(hashed_ + (std::size_t{1} << (64 - shift_)) + 3, Index{0});
 }
 
 /// By buckets, and by index within them: counted, then placed.
@@ -149,10 +151,10 @@ void PairSweep::sort()
     layOut();
     for (Index part = 0; part < boxes_.size(); ++part) {
         const int which = classes_[part];
-        const Grid& grid = grids_[which];
         const FatBox& box = boxes_[part];
-        std::size_t bucket = begin_.size() - 2;
-        if (which != kLast) {
+        std::size_t bucket = which == kLast ? lastBucket() : lastBucket() + 1;
+        if (which < kLast) {
+            const Grid& grid = grids_[which];
             const std::uint64_t row = lineOf(box.minY, grid.perRow), column = lineOf(box.minX, grid.perColumn);
             cells_[part] = cellOf(which, row, column);
             bucket = grid.table ? grid.first + static_cast<std::size_t>(row - grid.row) * grid.width() +

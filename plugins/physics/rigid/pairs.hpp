@@ -38,6 +38,7 @@ public:
     void resize(std::size_t parts, float typical);
     std::size_t parts() const { return boxes_.size(); }
     const FatBox& box(Index part) const { return boxes_[part]; }
+    const FatBox* boxes() const { return boxes_.data(); }
     /// To be followed by noteMoves(); different parts may be moved at once.
     void move(Index part, const FatBox& to)
     {
@@ -55,7 +56,7 @@ public:
     /// The same for a part that is moved next.
     void forget(Index part)
     {
-        if (part < boxes_.size()) boxes_[part] = before_[part] = kNowhere;
+        if (part < boxes_.size()) boxes_[part] = before_[part] = kNowhere, classes_[part] = kNoClass;
     }
 
     /// Calls found(a, b, met) for each pair of boxes that meet and of which one was moved; then nothing counts as
@@ -87,7 +88,7 @@ private:
     /// Parts of a class are at most as high and wide as its cells; each class is four times the one before. The last
     /// has no bound, and no cells either.
     static constexpr int kClasses = 8, kLast = kClasses - 1;
-    static constexpr std::uint8_t kNoClass = 255;
+    static constexpr std::uint8_t kNoClass = 255, kAbsent = kClasses;
     static constexpr int kColumnsPerCell = 4;
     static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
     static constexpr FatBox kNowhere{3e38F, 3e38F, -3e38F, -3e38F};
@@ -128,6 +129,7 @@ private:
     {
         return static_cast<std::size_t>(cell * 0x9e3779b97f4a7c15ULL >> shift_);
     }
+    std::size_t lastBucket() const { return begin_.size() - 3; }
     std::uint8_t classOf(const FatBox&) const;
     void layOut();
     Lines linesFor(const Grid& grid, float size, const FatBox& box) const
@@ -165,8 +167,7 @@ private:
         if (4 * stretches > boxes_.size() + 64) return scan(part, box, 0, boxes_.size(), kUnknown, found);
         for (int which = 0; which < kLast; ++which)
             if (grids_[which].members > 0) meet(part, box, which, lines[which], found);
-        if (const std::size_t large = grids_[kLast].members; large > 0)
-            scan(part, box, boxes_.size() - large, boxes_.size(), kUnknown, found);
+        scan(part, box, begin_[lastBucket()], begin_[lastBucket() + 1], kUnknown, found);
     }
     template <class Found>
     void meet(Index part, const FatBox& box, int which, const Lines& l, Found&& found)

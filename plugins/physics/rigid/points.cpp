@@ -85,6 +85,28 @@ Collider::Look Collider::update(RigidContact& c, double dt)
     return {.hits = c.hits};
 }
 
+std::uint32_t Collider::sift(const Index* which, std::size_t count, double dt, const Sieve& sieve)
+{
+    if (surprised_) return 0;
+    Index lanes[Sieve::kPairs];
+    float gaps[Sieve::kPairs];
+    std::uint32_t bare = 0;
+    for (std::size_t i = 0; i < Sieve::kPairs; ++i) {
+        lanes[i] = which[std::min(i, count - 1)];
+        const RigidContact& c = contacts_[lanes[i]];
+        if (i < count && c.count == 0 && !c.passing && !c.touching) bare |= 1U << i;
+    }
+    const SiftInput input{contacts_.data(), poses_.data(), sweep_.boxes(), static_cast<float>(dt), kSpeculative};
+    const std::uint32_t apart = bare & sieve.stayApart(input, lanes, gaps);
+    for (std::uint32_t rest = apart; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+        RigidContact& c = contacts_[lanes[lane]];
+        c.due = c.hits = false;
+        noteGap(c, gaps[lane]);
+    }
+    return apart;
+}
+
 /// Is a pair without points farther apart than `reach`, after what it has moved since it was last looked at?
 bool Collider::staysApart(const RigidContact& c, const Relative& at, float reach)
 {

@@ -1,0 +1,8 @@
+// The sieve of pairs for SSE2, or whatever the compiler makes of it elsewhere.
+#include "sift.hpp"
+
+#include <cmath>
+
+namespace jet::physics::sse2 {
+#include "sift.inc.hpp"
+}  // namespace jet::physics::sse2
