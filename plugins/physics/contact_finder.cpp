@@ -65,18 +65,35 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     previous_.swap(contacts);
     contacts.clear();
     splitPairs(state, dt);
-    const auto readGrid = [&](Index handle) {
-        BodyRecord& body = state.bodies[handle];
-        if (body.rigid || body.walls.count == 0 || gridded_[handle] != 0) return;
-        gridded_[handle] = 1;
-        rebuildGrid(state, body);
-        updateCorners(state, body);
-    };
-    gridded_.assign(state.bodies.size(), 0);
-    for (const BodyPair& pair : pairs_) readGrid(pair.a), readGrid(pair.b);
+    readBorders(state);
     collidePairs(state, settings, dt, previous_, contacts);
     carryOver(state, previous_, contacts);
     stats.narrowPhaseMs += millisecondsSince(narrow);
+}
+
+/// Corners of the soft bodies that may meet something; and grids of their walls, where points of the other come near.
+void ContactFinder::readBorders(State& state)
+{
+    constexpr std::uint8_t kCorners = 1, kGrid = 2;
+    constexpr Index kManyPoints = 64;
+    read_.assign(state.bodies.size(), 0);
+    const auto comesNear = [&](Index handle, Index other) {
+        const BodyRecord &body = state.bodies[handle], &points = state.bodies[other];
+        if (handle == other || points.points.count > kManyPoints) return true;
+        const double margin = motions_[other].range + body.matter.thickness + points.matter.thickness;
+        const Box near = motions_[handle].reach.inflated(margin);
+        for (Index p = points.points.first; p < points.points.end(); ++p)
+            if (near.contains(state.points.position[p])) return true;
+        return false;
+    };
+    const auto read = [&](Index handle, Index other) {
+        BodyRecord& body = state.bodies[handle];
+        if (body.rigid || body.walls.count == 0) return;
+        if ((read_[handle] & kCorners) == 0) updateCorners(state, body);
+        if ((read_[handle] & kGrid) == 0 && comesNear(handle, other)) rebuildGrid(state, body), read_[handle] |= kGrid;
+        read_[handle] |= kCorners;
+    };
+    for (const BodyPair& pair : pairs_) read(pair.a, pair.b), read(pair.b, pair.a);
 }
 
 /// A body that a much faster one may hit gets the faster one's reach: within this very step it may have to be stopped

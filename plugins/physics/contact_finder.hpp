@@ -34,6 +34,7 @@ private:
     bool isSlow(const State&, const BodyPair&, double dt) const;
     void splitPairs(const State&, double dt);
     bool expectHits(const State&, double dt);
+    void readBorders(State&);
     void predict(const State&, const WorldSettings&, double dt);
     void predictBody(const State&, const BodyRecord&, const WorldSettings&, double dt, Motion&, double& budget) const;
     void collidePairs(const State&, const WorldSettings&, double dt, std::span<const ContactPoint> previous,
@@ -48,7 +49,7 @@ private:
     std::vector<double> angle_, omega_;
     std::vector<std::pair<Index, Index>> excluded_;
     std::vector<BodyPair> pairs_, softPairs_;
-    std::vector<std::uint8_t> gridded_;  // [bodies] soft bodies whose grid is as of this find()
+    std::vector<std::uint8_t> read_;  // [bodies] soft bodies whose corners and grid are as of this find()
     std::vector<ContactPoint> previous_;
 };
 

@@ -30,6 +30,8 @@ public:
 
     /// `loose`: nothing but these springs acts on soft bodies, so their nodes may be weighed.
     void addTo(StiffnessBounds&, const State&, bool loose);
+    /// Substeps a second at which the body's springs may act as they are.
+    double stableRate(const StiffnessBounds&, const BodyRecord&, Index body) const;
     /// Fixes what depends on the length of a substep.
     /// `plain`: stiffness and damping as they are, whatever comes of it.
     void prepare(const State&, const StiffnessBounds&, double h, bool plain = false);
@@ -105,6 +107,7 @@ private:
         bool tears = false;
         bool uniform = false;  // ks, kd and tearRatio stand for those of all its springs
         double ks = 0, kd = 0, tearRatio = 0;
+        double provenRate = 0;  // substeps / s that were proven to suffice, besides the bounds; 0: none
     };
 
     void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf);
@@ -118,6 +121,8 @@ private:
     double tearRatio(Index i) const { return tear_.empty() ? 0 : tear_[i]; }
     void addTo(StiffnessBounds&, const State&, const Mesh&) const;
     void weigh(StiffnessBounds&, const State&, const Mesh&);
+    double provenRate(const State&, const Mesh&, double rate);
+    bool isStable(const State&, const Mesh&, double h);
     void arrange(const State&);
     void watchTears(soft::Batch&);
     void prepareMesh(const State&, const StiffnessBounds&, const Mesh&, double h);
@@ -147,7 +152,7 @@ private:
     // Scratch of the body or batch at work.
     std::vector<float> planes_;
     std::vector<std::uint32_t> tornBlocks_;
-    std::vector<double> stiffness_, damping_, load_, weight_;
+    std::vector<double> stiffness_, damping_, load_, weight_, matrix_;
 };
 
 }  // namespace jet::physics

@@ -118,8 +118,11 @@ void World::prepareStiffness()
     springs_.addTo(bounds_, state_, !actuators_.anySpring());
     actuators_.addTo(bounds_, state_);
     rate_ = 0;
-    for (const BodyRecord& body : state_.bodies)
-        rate_ = std::max({rate_, bounds_.stableRate(body.nodes), bounds_.fastest(body.nodes) / phaseOf(body)});
+    for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
+        const BodyRecord& body = state_.bodies[handle];
+        const double stable = springs_.stableRate(bounds_, body, handle);
+        rate_ = std::max({rate_, stable, bounds_.fastest(body.nodes) / phaseOf(body)});
+    }
     preparedFor_ = 0;
 }
 
