@@ -1,5 +1,6 @@
 // Reading the world and acting on it between steps; its snapshots.
 #include "snapshot.hpp"
+#include "soft/mass_sums.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -68,7 +69,8 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
     requireFinite("a velocity", velocity);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
-    const Vec2 change = velocity - state_.readings.velocity[handle];
+    const Vec2 now = body.rigid ? state_.readings.velocity[handle] : soft::freeSums(state_.nodes, body.nodes).velocity;
+    const Vec2 change = velocity - now;
     if (change != Vec2(0, 0)) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0 || body.kinematic) state_.nodes.velocity[n] += change;
@@ -81,15 +83,15 @@ void World::setOmega(BodyHandle handle, double omega)
     requireFinite("a turning rate", {omega});
     refresh();
     const BodyRecord& body = state_.bodies[handle];
-    const double change = omega - state_.readings.omega[handle];
+    const soft::MassSums sums = body.rigid ? soft::MassSums() : soft::freeSums(state_.nodes, body.nodes);
+    const double change = omega - (body.rigid ? state_.readings.omega[handle] : sums.omega());
     if (change != 0) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
         if (state_.nodes.invMass[n] == 0 && !body.kinematic) continue;
         if (body.rigid) {
             state_.nodes.omega[n] = omega;
         } else {
-            state_.nodes.velocity[n] +=
-                change * perpendicular(state_.nodes.position[n] - state_.readings.position[handle]);
+            state_.nodes.velocity[n] += change * perpendicular(state_.nodes.position[n] - sums.centre);
         }
     }
     updateReading(state_, handle);

@@ -65,4 +65,14 @@ inline MassSums massSums(const Nodes& nodes, Range range, const Vec2* rest = nul
         nodes, range.count, [&](std::size_t i) { return range.first + static_cast<Index>(i); }, rest);
 }
 
+/// Of those that may move: pinned particles have no say in how a body moves.
+inline MassSums freeSums(const Nodes& nodes, Range range)
+{
+    std::vector<Index> moving;
+    for (Index n = range.first; n < range.end(); ++n)
+        if (nodes.invMass[n] > 0) moving.push_back(n);
+    return massSums(
+        nodes, moving.size(), [&](std::size_t i) { return moving[i]; }, nullptr);
+}
+
 }  // namespace jet::physics::soft

@@ -173,6 +173,32 @@ TEST(SoftMatter, APinnedParticleHoldsTheBodyUntilItIsLetGo)
     EXPECT_EQ(pointsOf(*world, 0)[5], def.particles[5]);
 }
 
+TEST(SoftMatter, APinTakesNothingFromTheVelocityOfTheOtherParticles)
+{
+    // Loose particles, of different masses, so that each shows its own velocity.
+    SoftBodyDef def;
+    def.particles = {{0, 0}, {10, 0}, {10, 10}, {0, 30}};
+    def.masses = {5, 1, 2, 3};
+    def.movable = {0, 1, 1, 1};
+    def.common.velocity = {6, -3};
+    auto world = makeWorld({0, 0});
+    const BodyHandle body = world->addSoftBody(def);
+    const auto expectMoved = [&](const Vec2& way, const char* what) {
+        const auto place = [&] { return std::vector(pointsOf(*world, body).begin(), pointsOf(*world, body).end()); };
+        const std::vector<Vec2> before = place();
+        world->step(kStep);
+        const std::vector<Vec2> after = place();
+        EXPECT_EQ(after[0], before[0]) << what;
+        for (std::size_t i = 1; i < after.size(); ++i)
+            EXPECT_NEAR((after[i] - before[i] - way).norm(), 0, 1e-12) << what << ", particle " << i;
+    };
+    expectMoved(Vec2(6, -3) * kStep, "as drawn");
+    for (int i = 0; i < 2; ++i) world->setVelocity(body, {0, 7});
+    expectMoved(Vec2(0, 7) * kStep, "set twice");
+    world->setOmega(body, 0);
+    expectMoved(Vec2(0, 7) * kStep, "with no turning");
+}
+
 TEST(SoftMatter, EveryParameterChangesWhileItRunsAndARewindBringsTheOldOnesBack)
 {
     SoftBodyDef def = defaultBall({0, -60}, 30);
