@@ -95,7 +95,7 @@ TEST(NoExplosion, AStretchedNetNeverHoldsMoreEnergyThanWasPutIn)
 /// Every particle joined to every other: what bounds a node by the sum of its springs says twice what such nets can do.
 TEST(NoExplosion, ADenseNetNeverHoldsMoreEnergyThanWasPutIn)
 {
-    for (double ks = 1; ks < 2e5; ks *= 3) {
+    for (double ks = 1; ks < 1e5; ks *= 3) {  // above, the highest rate decides
         for (const double kd : {0.0, 0.1, 3.0}) {
             SoftBodyDef def;
             for (int i = 0; i < 24; ++i) {
