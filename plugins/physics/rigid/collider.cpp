@@ -20,7 +20,7 @@ constexpr float kThin = 0.5F;  // of the thickness
 constexpr float kLonger = 3;
 constexpr float kLongTypical = 6;  // typical lengths: longer thin parts are sought piece by piece
 constexpr int kMostPieces = 64;
-constexpr std::size_t kBodiesABlock = 512;
+constexpr std::size_t kSoughtABlock = 128;  // parts
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
@@ -90,7 +90,8 @@ void Collider::releaseAwake()
     }
 }
 
-void Collider::find(const State& state, const WorldSettings& settings, double dt, StepStats& stats, Pool& pool)
+void Collider::find(const State& state, const WorldSettings& settings, double dt, StepStats& stats, Pool& pool,
+                    const Domains& domains)
 {
     const auto start = std::chrono::steady_clock::now();
     if (typical_ == 0 && !parts_.empty()) measure();
@@ -106,25 +107,19 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
     prepareBodies();
     const float fall = static_cast<float>(settings.applyGravity ? settings.gravity.norm() * dt * dt : 0);
     std::atomic<bool> left = false;
-    pool.ranges(bodies_.size() - 1, kBodiesABlock, [&](std::size_t first, std::size_t last) {
-        bool fast = false, moved = false;
-        for (std::size_t i = first; i < last; ++i) {
-            const Index body = static_cast<Index>(i + 1);
-            if (!bodies_[body].posed) fast |= takePose(body, state, fall, dt);
-            bodies_[body].posed = bodies_[body].asleep;
-            noteReached(body);
-            if (bodies_[body].asleep) {
-                drift_[body] = 0;
-                continue;
-            }
-            noteDrift(body);
-            moved |= fitBoxes(body, dt);
+    domains.eachBody(pool, [&](Index body, Index) {
+        if (!bodies_[body].posed && takePose(body, state, fall, dt)) fast_.store(true, std::memory_order_relaxed);
+        if (bodies_[body].posed != bodies_[body].asleep) bodies_[body].posed = bodies_[body].asleep;
+        noteReached(body);
+        if (bodies_[body].asleep) {
+            drift_[body] = 0;
+            return;
         }
-        if (fast) fast_ = true;
-        if (moved) left = true;
+        noteDrift(body);
+        if (fitBoxes(body, dt)) left.store(true, std::memory_order_relaxed);
     });
     if (left) sweep_.noteMoves();
-    findPairs(settings);
+    findPairs(settings, pool);
     stats.broadPhaseMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -318,16 +313,27 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
     }
 }
 
-void Collider::findPairs(const WorldSettings& settings)
+void Collider::findPairs(const WorldSettings& settings, Pool& pool)
 {
     if (!sweep_.anyMoved()) return;
     // What met before is known already, or is none; but for long parts, whose boxes met before they did.
-    found_.clear();
-    sweep_.sweep([&](Index a, Index b, bool met) {
-        if ((met && !isLonger(a, b)) || known_.contains(RigidContact::keyOf(a, b))) return;
-        if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
-        found_.emplace_back(a, b);
+    sweep_.begin();
+    const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
+    if (foundBy_.size() < blocks) foundBy_.resize(blocks);
+    pool.run(blocks, [&](std::size_t block) {
+        auto& found = foundBy_[block];
+        found.clear();
+        const std::size_t first = block * kSoughtABlock, last = std::min(sweep_.parts(), first + kSoughtABlock);
+        sweep_.seek(first, last, [&](Index a, Index b, bool met) {
+            if ((met && !isLonger(a, b)) || known_.contains(RigidContact::keyOf(a, b))) return;
+            if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
+            found.emplace_back(a, b);
+        });
     });
+    sweep_.finish();
+    found_.clear();
+    for (std::size_t block = 0; block < blocks; ++block)
+        found_.insert(found_.end(), foundBy_[block].begin(), foundBy_[block].end());
     // From left to right: the order decides the order of solving, and this one lets tall heaps rest.
     std::sort(found_.begin(), found_.end(), [&](const std::pair<Index, Index>& p, const std::pair<Index, Index>& q) {
         const auto left = [&](Index part) { return std::pair(sweep_.box(part).minX, part); };

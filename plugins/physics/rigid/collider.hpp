@@ -5,6 +5,7 @@
 // bodies costs nothing here (the solver carries the separations on).
 #pragma once
 
+#include "domains.hpp"
 #include "pairs.hpp"
 #include "pool.hpp"
 #include "sift.hpp"
@@ -40,10 +41,10 @@ public:
     bool restless() const { return disturbed_ || rearranged_ || !welded_ || poses_.size() != bodies_.size(); }
 
     /// Where bodies are and which pairs may meet in the coming dt seconds.
-    void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&);
+    void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&, const Domains&);
     /// After update(): bodies that fast ones are going to hit may come farther than they know; they are given more
     /// room, and what they meet in it is to be updated too. False: there are none.
-    bool expectHits(const State&, const WorldSettings&, double dt);
+    bool expectHits(const State&, const WorldSettings&, double dt, Pool&);
 
     /// Is the pair to be looked at in this step?
     bool due(const RigidContact& c) const { return c.due || drift_[c.bodyA] + drift_[c.bodyB] > c.slop; }
@@ -146,7 +147,7 @@ private:
     FatBox withAhead(FatBox, const Pose&, double dt) const;
     void fitPieces(std::vector<FatBox>&, Index part, const Pose&, float room, double dt) const;
     void fitBox(Index part, const Pose&, float room, double dt);
-    void findPairs(const WorldSettings&);
+    void findPairs(const WorldSettings&, Pool&);
     void addPair(Index partA, Index partB, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
     bool surprise(Index body, float gain, double dt);
@@ -182,7 +183,8 @@ private:
     std::vector<float> surprise_;  // [bodies] units a hit may carry it in this step
     PairSweep sweep_;
     KeySet known_, excluded_;
-    std::vector<std::pair<Index, Index>> found_;  // scratch of findPairs()
+    std::vector<std::pair<Index, Index>> found_;                 // scratch of findPairs()
+    std::vector<std::vector<std::pair<Index, Index>>> foundBy_;  // the same, by blocks
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;       // [contacts]
     std::vector<Nearing> nearing_;    // [contacts]

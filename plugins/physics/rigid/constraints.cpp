@@ -11,19 +11,28 @@ constexpr float kPushLengths = 4;  // overlaps are pushed out no faster than thi
 constexpr float kSlopsPerLength = 500;
 constexpr float kPushPerSlop = kPushLengths * kSlopsPerLength;
 constexpr std::uint32_t kGroupsABlock = 16;
-constexpr std::size_t kIdleABlock = 128;
+constexpr std::size_t kIdleABlock = 512;
 
 }  // namespace
 
 template <class Real>
-int Solver<Real>::colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken)
+typename Solver<Real>::Node Solver<Real>::nodeOf(Index a, bool movesA, Index b, bool movesB) const
 {
-    const std::uint32_t both = (movesA ? taken[a] : 0) | (movesB ? taken[b] : 0);
-    const int colour = std::min(__builtin_ctz(~both | 1U << (kColours - 1)), kColours - 1);
-    if (colour == kColours - 1) return colour;
-    if (movesA) taken[a] |= 1U << colour;
-    if (movesB) taken[b] |= 1U << colour;
-    return colour;
+    if (!movesA) return domains_.nodeOf(b);
+    return movesB ? Domains::meet(domains_.nodeOf(a), domains_.nodeOf(b)) : domains_.nodeOf(a);
+}
+
+template <class Real>
+std::size_t Solver<Real>::colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken) const
+{
+    const Node node = nodeOf(a, movesA, b, movesB);
+    const std::uint32_t both = (movesA ? takenOf(taken, a, node) : 0) | (movesB ? takenOf(taken, b, node) : 0);
+    const auto colour = static_cast<std::size_t>(__builtin_ctz(~both | 1U << (kColours - 1)));
+    if (colour < kColours - 1) {
+        if (movesA) takenOf(taken, a, node) |= 1U << colour;
+        if (movesB) takenOf(taken, b, node) |= 1U << colour;
+    }
+    return firstColourOf(node) + colour;
 }
 
 template <class Real>
@@ -58,20 +67,33 @@ typename Solver<Real>::Block& Solver<Real>::blockAt(std::size_t index)
 template <class Real>
 void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve)
 {
+    drifts_.resize(domains_.slotCount());
+    drifts_[0] = collider.drifts()[0];
+    domains_.eachBody(*pool_, [&](Index body, Index slot) { drifts_[slot] = collider.drifts()[body]; });
     std::size_t count = 0;
-    for (std::uint32_t which = 0; which < colours_.size(); ++which) {
-        const auto size = static_cast<std::uint32_t>(colours_[which].contacts.size());
-        for (std::uint32_t first = 0; first < size; first += kGroupsABlock) {
-            Block& block = blockAt(count++);
-            block.colour = which, block.first = first, block.last = std::min(first + kGroupsABlock, size);
+    const auto list = [&](Node node) {
+        for (std::size_t which = firstColourOf(node); which < firstColourOf(node) + kColours; ++which) {
+            const auto size = static_cast<std::uint32_t>(colours_[which].contacts.size());
+            for (std::uint32_t first = 0; first < size; first += kGroupsABlock) {
+                Block& block = blockAt(count++);
+                block.colour = static_cast<std::uint32_t>(which);
+                block.first = first, block.last = std::min(first + kGroupsABlock, size);
+            }
         }
-    }
+    };
+    domains_.below(Domains::kRoot, list);
     pool_->run(count, [&](std::size_t i) { refreshBlock(collider, dt, resolve, blocks_[i]); });
+    settleBlocks(collider, count, resolve);
+}
+
+/// Whatever the order of the work, what follows from it is done in the order of the blocks.
+template <class Real>
+void Solver<Real>::settleBlocks(Collider& collider, std::size_t count, bool resolve)
+{
     for (std::size_t i = 0; i < count; ++i) {
         hardest_ = std::max(hardest_, blocks_[i].hardest);
         foresees_ |= blocks_[i].foresees;
     }
-    // Whatever the order of the work, what follows from it is done in the order of the lanes.
     for (std::size_t i = 0; i < count; ++i)
         for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
 }
@@ -80,8 +102,9 @@ template <class Real>
 void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Block& block)
 {
     auto& contacts = collider.contacts();
-    const float* drift = collider.drifts();
+    const float* drift = drifts_.data();
     const bool all = collider.anyDisturbed();
+    const Pose* poses = collider.poses().data();
     const Colour& colour = colours_[block.colour];
     for (std::size_t group = block.first; group < block.last; ++group) {
         const ContactLanes<Real>& g = colour.contacts[group];
@@ -91,14 +114,16 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             due[lane] = index[lane] != kNone && (all || kPushPerSlop * (drift[g.a[lane]] + drift[g.b[lane]]) >
                                                             static_cast<float>(g.mostPush[lane]));
             if (!due[lane]) continue;
-            __builtin_prefetch(&contacts[index[lane]]);
-            __builtin_prefetch(reinterpret_cast<const char*>(&contacts[index[lane]]) + 64);
+            __builtin_prefetch(&contacts[index[lane]], 1);
+            __builtin_prefetch(reinterpret_cast<const char*>(&contacts[index[lane]]) + 64, 1);
+            for (const std::int32_t slot : {g.a[lane], g.b[lane]})
+                if (slot != 0) __builtin_prefetch(&poses[domains_.bodyAt(static_cast<Index>(slot))]);
         }
         for (std::size_t lane = 0; lane < kWidth; ++lane) {
             if (!due[lane]) continue;
             RigidContact& c = contacts[index[lane]];
             if (!collider.due(c)) continue;
-            const Place place = placeOf(static_cast<int>(block.colour), group * kWidth + lane);
+            const Place place = placeOf(block.colour, group * kWidth + lane);
             fetch(c, place);
             const Collider::Look look = collider.update(c, dt);
             block.foresees |= look.hits;
@@ -115,31 +140,34 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
 template <class Real>
 void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
 {
-    auto& contacts = collider.contacts();
-    const auto& places = collider.places();
-    idleDue_.clear();
-    for (Index contact = 0; contact < contacts.size(); ++contact)
-        if (places[contact] == kIdle && collider.nears(contact)) idleDue_.push_back(contact);
-    const Sieve& pairs = sieve(shape_.choice);
-    const std::size_t blocks = (idleDue_.size() + kIdleABlock - 1) / kIdleABlock;
+    const std::size_t size = collider.contacts().size(), blocks = (size + kIdleABlock - 1) / kIdleABlock;
     for (std::size_t i = 0; i < blocks; ++i) blockAt(i);
     pool_->run(blocks, [&](std::size_t i) {
-        const std::size_t first = i * kIdleABlock, last = std::min(idleDue_.size(), first + kIdleABlock);
-        std::uint32_t apart = 0;
-        for (std::size_t at = first; at < last; ++at) {
-            const std::size_t lane = (at - first) % Sieve::kPairs;
-            if (lane == 0)
-                apart = collider.sift(&idleDue_[at], std::min<std::size_t>(Sieve::kPairs, last - at), dt, pairs);
-            if ((apart >> lane & 1U) != 0) continue;
-            RigidContact& c = contacts[idleDue_[at]];
-            const Collider::Look look = collider.update(c, dt);
-            blocks_[i].foresees |= look.hits;
-            if (!look.kept || c.touching || c.count > 0) blocks_[i].outcomes.push_back({idleDue_[at], look.kept});
-        }
+        refreshIdle(collider, dt, i * kIdleABlock, std::min(size, (i + 1) * kIdleABlock), blocks_[i]);
     });
-    for (std::size_t i = 0; i < blocks; ++i) foresees_ |= blocks_[i].foresees;
-    for (std::size_t i = 0; i < blocks; ++i)
-        for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
+    settleBlocks(collider, blocks, resolve);
+}
+
+template <class Real>
+void Solver<Real>::refreshIdle(Collider& collider, double dt, std::size_t first, std::size_t last, Block& block)
+{
+    const auto& places = collider.places();
+    block.due.clear();
+    for (auto contact = static_cast<Index>(first); contact < last; ++contact)
+        if (places[contact] == kIdle && collider.nears(contact)) block.due.push_back(contact);
+    const Sieve& pairs = sieve(shape_.choice);
+    std::uint32_t apart = 0;
+    for (std::size_t at = 0; at < block.due.size(); ++at) {
+        const std::size_t lane = at % Sieve::kPairs;
+        if (lane == 0)
+            apart =
+                collider.sift(&block.due[at], std::min<std::size_t>(Sieve::kPairs, block.due.size() - at), dt, pairs);
+        if ((apart >> lane & 1U) != 0) continue;
+        RigidContact& c = collider.contacts()[block.due[at]];
+        const Collider::Look look = collider.update(c, dt);
+        block.foresees |= look.hits;
+        if (!look.kept || c.touching || c.count > 0) block.outcomes.push_back({block.due[at], look.kept});
+    }
 }
 
 template <class Real>
@@ -171,13 +199,13 @@ void Solver<Real>::admit(Collider& collider, Index contact)
 {
     const RigidContact& c = collider.contacts()[contact];
     const auto& bodies = collider.bodies();
-    const int which = colourOf(c.bodyA, bodies[c.bodyA].moves, c.bodyB, bodies[c.bodyB].moves, taken_);
-    Colour& colour = colours_[static_cast<std::size_t>(which)];
+    const std::size_t which = colourOf(c.bodyA, bodies[c.bodyA].moves, c.bodyB, bodies[c.bodyB].moves, taken_);
+    Colour& colour = colours_[which];
     if (c.restitution > 0 && !bounces_) {
         bounces_ = true;
         for (Colour& each : colours_) each.bounces.resize(each.contacts.size(), BounceLanes<Real>{});
     }
-    addLane(colour, which == kColours - 1);
+    addLane(colour, isLast(which));
     const std::size_t at = colour.count - 1;
     colour.index[at] = contact;
     if (c.touching) colour.touched[at / kWidth] |= 1U << (at % kWidth);
@@ -188,31 +216,42 @@ void Solver<Real>::admit(Collider& collider, Index contact)
 }
 
 template <class Real>
+void Solver<Real>::copyLane(const Colour& from, std::size_t source, Colour& to, std::size_t target, bool bounces)
+{
+    const std::size_t a = source % kWidth, b = target % kWidth;
+    const auto copy = [&](const Lanes<Real>& old, Lanes<Real>& lanes) { lanes[b] = old[a]; };
+    const ContactLanes<Real>& g = from.contacts[source / kWidth];
+    const FrictionLanes<Real>& f = from.frictions[source / kWidth];
+    ContactLanes<Real>& h = to.contacts[target / kWidth];
+    FrictionLanes<Real>& e = to.frictions[target / kWidth];
+    h.a[b] = g.a[a], h.b[b] = g.b[a];
+    copy(g.normalX, h.normalX), copy(g.normalY, h.normalY), copy(g.mostPush, h.mostPush), copy(f.friction, e.friction);
+    for (int k = 0; k < 2; ++k) {
+        const auto& p = g.points[k];
+        auto& q = h.points[k];
+        copy(p.leverA, q.leverA), copy(p.leverB, q.leverB), copy(p.separation, q.separation);
+        copy(p.mass, q.mass), copy(p.impulse, q.impulse);
+        const auto& s = f.points[k];
+        auto& t = e.points[k];
+        copy(s.leverA, t.leverA), copy(s.leverB, t.leverB), copy(s.mass, t.mass), copy(s.impulse, t.impulse);
+    }
+    if (bounces) {
+        const BounceLanes<Real>& r = from.bounces[source / kWidth];
+        BounceLanes<Real>& s = to.bounces[target / kWidth];
+        copy(r.restitution, s.restitution), copy(r.most[0], s.most[0]), copy(r.most[1], s.most[1]);
+    }
+    const std::uint32_t bit = from.touched[source / kWidth] >> a & 1U;
+    to.touched[target / kWidth] &= ~(1U << b);
+    to.touched[target / kWidth] |= bit << b;
+    to.index[target] = from.index[source];
+}
+
+template <class Real>
 void Solver<Real>::moveLane(Collider& collider, Colour& colour, std::size_t from, std::size_t to)
 {
-    const auto move = [&](Lanes<Real>& source, Lanes<Real>& target) { target[to % kWidth] = source[from % kWidth]; };
-    ContactLanes<Real>&g = colour.contacts[from / kWidth], &h = colour.contacts[to / kWidth];
-    FrictionLanes<Real>&f = colour.frictions[from / kWidth], &e = colour.frictions[to / kWidth];
-    h.a[to % kWidth] = g.a[from % kWidth], h.b[to % kWidth] = g.b[from % kWidth];
-    move(g.normalX, h.normalX), move(g.normalY, h.normalY), move(g.mostPush, h.mostPush), move(f.friction, e.friction);
-    for (int k = 0; k < 2; ++k) {
-        auto &p = g.points[k], &q = h.points[k];
-        move(p.leverA, q.leverA), move(p.leverB, q.leverB), move(p.separation, q.separation);
-        move(p.mass, q.mass), move(p.impulse, q.impulse);
-        auto &s = f.points[k], &t = e.points[k];
-        move(s.leverA, t.leverA), move(s.leverB, t.leverB), move(s.mass, t.mass), move(s.impulse, t.impulse);
-    }
-    if (bounces_) {
-        BounceLanes<Real>&r = colour.bounces[from / kWidth], &s = colour.bounces[to / kWidth];
-        move(r.restitution, s.restitution), move(r.most[0], s.most[0]), move(r.most[1], s.most[1]);
-    }
-    const std::uint32_t bit = colour.touched[from / kWidth] >> (from % kWidth) & 1U;
-    colour.touched[to / kWidth] &= ~(1U << (to % kWidth));
-    colour.touched[to / kWidth] |= bit << (to % kWidth);
-    const Index contact = colour.index[from];
-    colour.index[to] = contact;
-    const auto which = static_cast<int>(&colour - colours_.data());
-    if (contact != kNone) collider.places()[contact] = placeOf(which, to);
+    copyLane(colour, from, colour, to, bounces_);
+    const auto which = static_cast<std::size_t>(&colour - colours_.data());
+    if (colour.index[to] != kNone) collider.places()[colour.index[to]] = placeOf(which, to);
 }
 
 /// The last lane takes its place, and is wiped out where it was.
@@ -220,16 +259,16 @@ template <class Real>
 void Solver<Real>::remove(Collider& collider, Index contact)
 {
     const Place place = collider.places()[contact];
-    const int which = static_cast<int>(place >> kLaneBits);
+    const std::size_t which = place >> kLaneBits;
     Colour& colour = colourAt(place);
     const RigidContact& c = collider.contacts()[contact];
     fetch(collider.contacts()[contact], place);
-    if (which < kColours - 1)
-        for (const Index body : {c.bodyA, c.bodyB}) taken_[body] &= ~(1U << which);
+    if (!isLast(which))
+        for (const Index body : {c.bodyA, c.bodyB}) takenOf(taken_, body, nodeOf(which)) &= ~(1U << which % kColours);
     const std::size_t last = colour.count - 1, at = laneAt(place);
     if (at != last) moveLane(collider, colour, last, at);
     collider.places()[contact] = kIdle;
-    const bool alone = which == kColours - 1;
+    const bool alone = isLast(which);
     if (last % kWidth == 0) {
         colour.contacts.pop_back(), colour.frictions.pop_back(), colour.touched.pop_back(), colour.touches.pop_back();
         if (bounces_) colour.bounces.pop_back();
@@ -268,14 +307,14 @@ template <class Real>
 void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place place)
 {
     const Pose &poseA = collider.poses()[c.bodyA], &poseB = collider.poses()[c.bodyB];
-    const BodyState<Real>&a = states_[c.bodyA], &b = states_[c.bodyB];
+    const BodyState<Real>&a = body(c.bodyA), &b = body(c.bodyB);
     Colour& colour = colourAt(place);
     const std::size_t group = laneAt(place) / kWidth, lane = laneAt(place) % kWidth;
     ContactLanes<Real>& g = colour.contacts[group];
     FrictionLanes<Real>& f = colour.frictions[group];
-    const auto shown = [&](Index body) {
-        const RigidBody& is = collider.bodies()[body];
-        return is.moves || is.kinematic ? static_cast<std::int32_t>(body) : 0;
+    const auto shown = [&](Index index) {
+        const RigidBody& is = collider.bodies()[index];
+        return is.moves || is.kinematic ? static_cast<std::int32_t>(domains_.slotOf(index)) : 0;
     };
     g.a[lane] = shown(c.bodyA), g.b[lane] = shown(c.bodyB);
     const Vec2f n = turned(poseA.turn, c.normal);
@@ -325,6 +364,14 @@ void Solver<Real>::fetch(RigidContact& c, Place place) const
 }
 
 template <class Real>
+void Solver<Real>::clear(Colour& colour)
+{
+    colour.contacts.clear(), colour.frictions.clear(), colour.bounces.clear(), colour.index.clear();
+    colour.touched.clear(), colour.touches.clear();
+    colour.count = 0;
+}
+
+template <class Real>
 void Solver<Real>::release(Collider& collider)
 {
     auto& places = collider.places();
@@ -335,11 +382,7 @@ void Solver<Real>::release(Collider& collider)
         collider.markDue(contact);
         places[contact] = kIdle;
     }
-    for (Colour& colour : colours_) {
-        colour.contacts.clear(), colour.frictions.clear(), colour.bounces.clear(), colour.index.clear();
-        colour.touched.clear(), colour.touches.clear();
-        colour.count = 0;
-    }
+    for (Colour& colour : colours_) clear(colour);
     std::fill(taken_.begin(), taken_.end(), 0U);
     bounces_ = false;
 }
@@ -357,21 +400,16 @@ template <class Real>
 void Solver<Real>::place(const Collider& collider)
 {
     const bool bounces = bounces_;
-    if (colours_.empty()) colours_.resize(kColours), jointColours_.resize(kColours);
-    for (Colour& colour : colours_) {
-        colour.contacts.clear(), colour.frictions.clear(), colour.bounces.clear(), colour.index.clear();
-        colour.touched.clear(), colour.touches.clear();
-        colour.count = 0;
-    }
+    if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
+    for (Colour& colour : colours_) clear(colour);
     bounces_ = bounces;
-    taken_.assign(collider.bodies().size(), 0);
+    taken_.assign(collider.bodies().size() * Domains::kLevels, 0);
     const auto& places = collider.places();
     for (Index contact = 0; contact < places.size(); ++contact) {
         if (!isPlaced(places[contact])) continue;
-        const auto which = static_cast<int>(places[contact] >> kLaneBits);
-        const std::size_t at = laneAt(places[contact]);
-        if (which >= kColours || at > 2 * kWidth * places.size()) RestoreArchive::fail();
-        Colour& colour = colours_[static_cast<std::size_t>(which)];
+        const std::size_t which = places[contact] >> kLaneBits, at = laneAt(places[contact]);
+        if (which >= colours_.size() || at > 2 * kWidth * places.size()) RestoreArchive::fail();
+        Colour& colour = colours_[which];
         const RigidContact& c = collider.contacts()[contact];
         colour.count = std::max(colour.count, at + 1);
         const std::size_t size = groups(colour.count);
@@ -381,9 +419,9 @@ void Solver<Real>::place(const Collider& collider)
             colour.touched.resize(size, 0), colour.touches.resize(size, 0), colour.index.resize(size * kWidth, kNone);
         }
         if (c.touching) colour.touched[at / kWidth] |= 1U << (at % kWidth);
-        if (which == kColours - 1) continue;
+        if (isLast(which)) continue;
         for (const Index body : {c.bodyA, c.bodyB})
-            if (collider.bodies()[body].moves) taken_[body] |= 1U << which;
+            if (collider.bodies()[body].moves) takenOf(taken_, body, nodeOf(which)) |= 1U << which % kColours;
     }
 }
 

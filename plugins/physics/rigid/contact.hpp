@@ -32,8 +32,9 @@ struct RigidBody {
     }
 };
 
-/// What collision needs to know of a body's motion, refreshed at the start of a step.
-struct alignas(16) Pose {
+/// What collision needs to know of a body's motion, refreshed at the start of a step. In a line of its own, as threads
+/// write those of different bodies.
+struct alignas(64) Pose {
     double x = 0, y = 0;                            // scene units
     Vec2f turn{1, 0};                               // (cos, sin)
     float velocityX = 0, velocityY = 0, omega = 0;  // units / s, rad / s
@@ -53,7 +54,7 @@ inline constexpr Place kIdle = 0xffffffffU;    // has no constraint: nothing nea
 inline constexpr Place kFree = 0xfffffffeU;    // no contact at all
 inline constexpr Place kAsleep = 0xfffffffdU;  // between bodies that rest: its constraint was taken away
 inline constexpr bool isPlaced(Place place) { return place < kAsleep; }
-inline constexpr int kLaneBits = 26;
+inline constexpr int kLaneBits = 24;
 
 /// Two parts whose boxes meet. Two cache lines, of which pairs without points need the first alone, in rows of 16
 /// bytes; the impulses are the solver's while it has a constraint.

@@ -69,7 +69,7 @@ float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& 
     return t / dtf;
 }
 
-bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt)
+bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt, Pool& pool)
 {
     if (!fast_) return false;
     bool grew = false;
@@ -89,7 +89,7 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     }
     if (!grew) return false;
     settleDrifts();
-    findPairs(settings);
+    findPairs(settings, pool);
     return true;
 }
 

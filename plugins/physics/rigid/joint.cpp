@@ -15,11 +15,11 @@ Softness<double> softnessOf(double hertz, double dampingRatio, double h)
 template <class Real>
 void JointRow<Real>::apply(BodyState<Real>& stateA, BodyState<Real>& stateB, Real p) const
 {
-    if (a != 0) {
+    if (stateA.invMass > 0 || stateA.invInertia > 0) {
         stateA.velocityX += stateA.invMass * ax * p, stateA.velocityY += stateA.invMass * ay * p;
         stateA.omega += stateA.invInertia * angularA * p;
     }
-    if (b != 0) {
+    if (stateB.invMass > 0 || stateB.invInertia > 0) {
         stateB.velocityX += stateB.invMass * bx * p, stateB.velocityY += stateB.invMass * by * p;
         stateB.omega += stateB.invInertia * angularB * p;
     }
@@ -85,9 +85,9 @@ constexpr double kUnlimited = 1e30;
 template <class Real>
 class RowMaker {
 public:
-    RowMaker(const Joint& joint, Index index, const JointFrame& frame, const std::vector<BodyState<Real>>& states,
+    RowMaker(const Joint& joint, Index index, const JointFrame& frame, const BodyState<Real>* states, Index a, Index b,
              double h, std::vector<JointRow<Real>>& rows)
-        : joint_(joint), index_(index), frame_(frame), states_(states), h_(h), rows_(rows)
+        : joint_(joint), index_(index), frame_(frame), states_(states), a_(a), b_(b), h_(h), rows_(rows)
     {
     }
 
@@ -102,12 +102,12 @@ public:
     JointRow<Real>& add(const Vec2& ja, double angularA, const Vec2& jb, double angularB, int slot)
     {
         JointRow<Real> row;
-        row.a = joint_.a, row.b = joint_.b, row.joint = index_, row.slot = static_cast<Index>(slot);
+        row.a = a_, row.b = b_, row.joint = index_, row.slot = static_cast<Index>(slot);
         row.ax = static_cast<Real>(ja.x()), row.ay = static_cast<Real>(ja.y()),
         row.angularA = static_cast<Real>(angularA);
         row.bx = static_cast<Real>(jb.x()), row.by = static_cast<Real>(jb.y()),
         row.angularB = static_cast<Real>(angularB);
-        const BodyState<Real>&a = states_[joint_.a], &b = states_[joint_.b];
+        const BodyState<Real>&a = states_[a_], &b = states_[b_];
         const Real inverse =
             a.invMass * (row.ax * row.ax + row.ay * row.ay) + a.invInertia * row.angularA * row.angularA +
             b.invMass * (row.bx * row.bx + row.by * row.by) + b.invInertia * row.angularB * row.angularB;
@@ -149,7 +149,8 @@ private:
     const Joint& joint_;
     Index index_;
     const JointFrame& frame_;
-    const std::vector<BodyState<Real>>& states_;
+    const BodyState<Real>* states_;
+    Index a_, b_;
     double h_;
     std::vector<JointRow<Real>>& rows_;
 };
@@ -210,10 +211,10 @@ void addPulley(const Joint& joint, const JointFrame& f, RowMaker<Real>& make)
 }  // namespace
 
 template <class Real>
-void addRows(const Joint& joint, Index index, const JointFrame& f, const std::vector<BodyState<Real>>& states, double h,
-             std::vector<JointRow<Real>>& rows)
+void addRows(const Joint& joint, Index index, const JointFrame& f, const BodyState<Real>* states, Index a, Index b,
+             double h, std::vector<JointRow<Real>>& rows)
 {
-    RowMaker<Real> make(joint, index, f, states, h, rows);
+    RowMaker<Real> make(joint, index, f, states, a, b, h, rows);
     const JointDef& def = joint.def;
     const Vec2 apart = f.pointB - f.pointA;
     switch (def.kind) {
@@ -250,9 +251,9 @@ void addRows(const Joint& joint, Index index, const JointFrame& f, const std::ve
     }
 }
 
-template void addRows<float>(const Joint&, Index, const JointFrame&, const std::vector<BodyState<float>>&, double,
+template void addRows<float>(const Joint&, Index, const JointFrame&, const BodyState<float>*, Index, Index, double,
                              std::vector<JointRow<float>>&);
-template void addRows<double>(const Joint&, Index, const JointFrame&, const std::vector<BodyState<double>>&, double,
+template void addRows<double>(const Joint&, Index, const JointFrame&, const BodyState<double>*, Index, Index, double,
                               std::vector<JointRow<double>>&);
 
 }  // namespace jet::physics

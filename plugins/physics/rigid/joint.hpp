@@ -16,7 +16,7 @@ namespace jet::physics {
 
 template <class Real>
 struct JointRow {
-    Index a = 0, b = 0, joint = 0, slot = 0;
+    Index a = 0, b = 0, joint = 0, slot = 0;  // a, b: of the states
     Real ax = 0, ay = 0, angularA = 0, bx = 0, by = 0, angularB = 0;
     Real error = 0;             // units or radians at the start of the step
     Real speed = 0;             // wanted, units / s or rad / s
@@ -58,9 +58,9 @@ struct JointFrame {
 };
 JointFrame frameOf(const Joint&, const State&, const std::vector<RigidBody>&);
 
-/// Appends the joint's rows for substeps of h.
+/// Appends the joint's rows for substeps of h, between the states of its bodies.
 template <class Real>
-void addRows(const Joint&, Index index, const JointFrame&, const std::vector<BodyState<Real>>&, double h,
+void addRows(const Joint&, Index index, const JointFrame&, const BodyState<Real>* states, Index a, Index b, double h,
              std::vector<JointRow<Real>>&);
 
 Softness<double> softnessOf(double hertz, double dampingRatio, double h);

@@ -59,16 +59,26 @@ public:
         if (part < boxes_.size()) boxes_[part] = before_[part] = kNowhere, classes_[part] = kNoClass;
     }
 
-    /// Calls found(a, b, met) for each pair of boxes that meet and of which one was moved; then nothing counts as
-    /// moved. `met`: they did so before they were moved, too. Pairs of long parts may come more than once.
+    /// begin(), seek() of all parts, finish().
     template <class Found>
     void sweep(Found&& found)
     {
-        sort();
-        for (Index part = 0; part < boxes_.size(); ++part)
-            if (moved_[part] != 0) meet(part, found);
+        begin();
+        seek(0, parts(), found);
         finish();
     }
+    /// A sweep: begin, seek all parts, finish; then nothing counts as moved.
+    void begin() { sort(); }
+    /// Calls found(a, b, met) for each pair of boxes that meet and of which one was moved, if that one is of
+    /// [first, last); different parts may be sought at once. `met`: they did so before they were moved, too. Pairs of
+    /// long parts may come more than once.
+    template <class Found>
+    void seek(std::size_t first, std::size_t last, Found&& found) const
+    {
+        for (auto part = static_cast<Index>(first); part < last; ++part)
+            if (moved_[part] != 0) meet(part, found);
+    }
+    void finish();
 
     template <class Archive>
     void archive(Archive& with)
@@ -143,17 +153,16 @@ private:
         return l;
     }
     void sort();
-    void finish();
     bool meetsPieces(Index part, const FatBox&) const;
 
     template <class Found>
-    void meet(Index part, Found&& found)
+    void meet(Index part, Found&& found) const
     {
         if (pieceOf_[part] == 0) return meet(part, boxes_[part], found);
         for (const FatBox& piece : pieces_[pieceOf_[part]]) meet(part, piece, found);
     }
     template <class Found>
-    void meet(Index part, const FatBox& box, Found&& found)
+    void meet(Index part, const FatBox& box, Found&& found) const
     {
         Lines lines[kLast];
         std::uint64_t stretches = 0;
@@ -170,7 +179,7 @@ private:
         scan(part, box, begin_[lastBucket()], begin_[lastBucket() + 1], kUnknown, found);
     }
     template <class Found>
-    void meet(Index part, const FatBox& box, int which, const Lines& l, Found&& found)
+    void meet(Index part, const FatBox& box, int which, const Lines& l, Found&& found) const
     {
         const Grid& grid = grids_[which];
         if (grid.table) {
@@ -192,7 +201,8 @@ private:
     }
     /// `cell`: the one that is meant, as others may be in its bucket; kUnknown: any.
     template <class Found>
-    void scan(Index part, const FatBox& box, std::size_t first, std::size_t last, std::uint64_t cell, Found&& found)
+    void scan(Index part, const FatBox& box, std::size_t first, std::size_t last, std::uint64_t cell,
+              Found&& found) const
     {
         for (std::size_t j = first; j < last; j += 4) {
             // The lists are padded by boxes at infinity.

@@ -7,8 +7,10 @@ namespace jet::physics {
 
 namespace {
 
-constexpr std::uint64_t kTask = std::uint64_t{1} << 32;
-constexpr auto kPatience = std::chrono::microseconds(60);  // how long a worker waits for the next task before it sleeps
+// How long a worker waits for the next task before it sleeps: after a step, and between the tasks of one.
+constexpr auto kPatience = std::chrono::microseconds(60), kAttention = std::chrono::microseconds(2000);
+// Pauses a thread is given to begin its share, a few microseconds: its data are not in the other's cache.
+constexpr int kRespite = 150;
 
 void pause()
 {
@@ -47,44 +49,52 @@ void Pool::stop()
     stopping_ = false;
 }
 
-bool Pool::take(std::size_t self, std::size_t& block)
+/// How many blocks of it were done here.
+std::size_t Pool::finishShare(Share& share, bool own)
 {
-    for (std::size_t i = 0; i < shares_.size(); ++i) {
-        Share& share = shares_[(self + i) % shares_.size()];
-        std::uint64_t ticket = share.ticket.load(std::memory_order_acquire);
-        while (ticket % kTask != 0)
-            if (share.ticket.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acq_rel)) {
-                block = share.first + ticket % kTask - 1;
-                return true;
-            }
+    std::size_t mine = 0;
+    std::uint64_t ticket = share.ticket.load(std::memory_order_acquire);
+    for (int i = 0;
+         !own && i < kRespite && ticket % kTask != 0 && ticket % kTask == share.count.load(std::memory_order_relaxed);
+         ++i) {
+        pause();
+        ticket = share.ticket.load(std::memory_order_acquire);
     }
-    return false;
+    while (ticket % kTask != 0)
+        if (share.ticket.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acq_rel)) {
+            share.call(share.what, share.first + ticket % kTask - 1);
+            ++mine;
+            ticket = share.ticket.load(std::memory_order_acquire);
+        }
+    return mine;
 }
 
-bool Pool::anyLeft() const
+std::size_t Pool::finishOthers(std::size_t self)
 {
-    return std::any_of(shares_.begin(), shares_.end(),
-                       [](const Share& share) { return share.ticket.load() % kTask != 0; });
+    std::size_t mine = 0;
+    for (std::size_t i = 1; i < shares_.size(); ++i) mine += finishShare(shares_[(self + i) % shares_.size()], false);
+    return mine;
 }
 
 void Pool::fork(Call call, void* what, std::size_t blocks)
 {
     if (workers_.empty()) start();
-    call_ = call, what_ = what;
     done_.store(0, std::memory_order_relaxed);
     task_ += kTask;
-    for (std::size_t i = 0; i < shares_.size(); ++i) {
+    // The caller's own comes last, so that nobody takes from it before he has one himself.
+    for (std::size_t i = shares_.size(); i-- > 0;) {
         const std::size_t first = i * blocks / shares_.size(), last = (i + 1) * blocks / shares_.size();
-        shares_[i].first = first;
+        shares_[i].first = first, shares_[i].call = call, shares_[i].what = what;
+        shares_[i].count.store(last - first, std::memory_order_relaxed);
         shares_[i].ticket.store(task_ + (last - first));
     }
     if (sleeping_.load() > 0) {
         const std::lock_guard lock(mutex_);
         wake_.notify_all();
     }
-    std::size_t mine = 0;
-    for (std::size_t block = 0; take(0, block); ++mine) call(what, block);
-    done_.fetch_add(mine, std::memory_order_acq_rel);
+    std::size_t mine = finishShare(shares_[0], true);
+    mine += finishOthers(0);
+    if (mine > 0) done_.fetch_add(mine, std::memory_order_acq_rel);
     // The others are in the midst of their last block; if they have lost their processor, ours may be what they need.
     for (int round = 0; done_.load(std::memory_order_acquire) != blocks; ++round) {
         pause();
@@ -96,18 +106,26 @@ void Pool::serve(std::size_t self)
 {
     using Clock = std::chrono::steady_clock;
     auto idleSince = Clock::now();
+    std::uint64_t seen = 0;
     while (!stopping_.load(std::memory_order_relaxed)) {
-        std::size_t block = 0, mine = 0;
-        for (; take(self, block); ++mine) {
-            call_(what_, block);
-            done_.fetch_add(1, std::memory_order_acq_rel);
+        if (isNew(self, seen)) {
+            seen = shares_[self].ticket.load() / kTask;
+            if (const std::size_t mine = finishShare(shares_[self], true); mine > 0)
+                done_.fetch_add(mine, std::memory_order_acq_rel);
+            if (const std::size_t mine = finishOthers(self); mine > 0) done_.fetch_add(mine, std::memory_order_acq_rel);
+            idleSince = Clock::now();
         }
-        if (mine > 0) idleSince = Clock::now();
-        for (int i = 0; i < 64 && !anyLeft(); ++i) pause();
-        if (anyLeft() || Clock::now() - idleSince < kPatience) continue;
+        for (int i = 0; i < 64 && !isNew(self, seen); ++i) pause();
+        if (isNew(self, seen)) continue;
+        const auto idle = Clock::now() - idleSince;
+        if (idle < kPatience) continue;
+        if (attended_.load(std::memory_order_relaxed) && idle < kAttention) {
+            std::this_thread::yield();  // who else wants the processor may have it
+            continue;
+        }
         std::unique_lock lock(mutex_);
         ++sleeping_;
-        wake_.wait(lock, [this] { return stopping_ || anyLeft(); });
+        wake_.wait(lock, [&] { return stopping_ || isNew(self, seen); });
         --sleeping_;
         idleSince = Clock::now();
     }

@@ -28,6 +28,18 @@ public:
     void setThreads(int threads);
     int threads() const { return threads_; }
 
+    /// While something lives that attends, workers wait for the next task without falling asleep, but not for long.
+    class Attention {
+    public:
+        explicit Attention(Pool& pool) : pool_(pool) { pool_.attended_.store(true, std::memory_order_relaxed); }
+        ~Attention() { pool_.attended_.store(false, std::memory_order_relaxed); }
+        Attention(const Attention&) = delete;
+        Attention& operator=(const Attention&) = delete;
+
+    private:
+        Pool& pool_;
+    };
+
     /// Calls work(block) for each block below `blocks`, at once and in any order; returns when all is done.
     template <class Work>
     void run(std::size_t blocks, Work&& work)
@@ -53,27 +65,33 @@ public:
 
 private:
     using Call = void (*)(void*, std::size_t);
+    static constexpr std::uint64_t kTask = std::uint64_t{1} << 32;
+    struct Share;
     void fork(Call, void* what, std::size_t blocks);
     void start();
     void stop();
     void serve(std::size_t self);
-    bool take(std::size_t self, std::size_t& block);
-    bool anyLeft() const;
+    std::size_t finishShare(Share&, bool own);
+    std::size_t finishOthers(std::size_t self);
+    bool isNew(std::size_t self, std::uint64_t seen) const { return shares_[self].ticket.load() / kTask != seen; }
 
-    /// A thread's blocks of the task. The last are taken first.
+    /// A thread's blocks of the task, in one line of memory. The last are taken first. What is beside the ticket is
+    /// written before it, and read by those who have got a block.
     struct alignas(64) Share {
-        std::size_t first = 0;                 // written before the ticket, read by those who have got a block
+        std::size_t first = 0;
+        Call call = nullptr;
+        void* what = nullptr;
+        std::atomic<std::uint64_t> count{0};   // blocks of the share
         std::atomic<std::uint64_t> ticket{0};  // number of the task, blocks left to take
     };
 
     int threads_ = 1;
     std::vector<std::thread> workers_;
     std::vector<Share> shares_;  // [threads]
-    Call call_ = nullptr;        // written before the tickets, too
-    void* what_ = nullptr;
     std::uint64_t task_ = 0;
     alignas(64) std::atomic<std::size_t> done_{0};  // blocks
-    std::atomic<int> sleeping_{0};
+    alignas(64) std::atomic<int> sleeping_{0};
+    std::atomic<bool> attended_{false};
     std::atomic<bool> stopping_{false};
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -13,7 +13,6 @@ constexpr double kJointHertz = 80, kJointHertzPerSubstepRate = 1.0 / 3, kJointDa
 constexpr int kRelaxPasses = 2;
 constexpr int kJointPushPasses = 2;  // chains of joints carry forces far
 constexpr int kBouncePasses = 2;
-constexpr std::size_t kGroupsABlock = 32, kBodiesABlock = 1024;
 
 template <class Real>
 Softness<Real> softness(double hertz, double dampingRatio, double h)
@@ -36,12 +35,11 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool)
     constants_.joint = softness<Real>(std::min(kJointHertz, kJointHertzPerSubstepRate * rate), kJointDamping, shape.h);
     constants_.restSpeed = static_cast<Real>(shape.restSpeed);
     kernels_ = &kernels<Real>(shape.choice);
-    states_.resize(bodies), pushes_.resize(bodies);
-    states_[0] = BodyState<Real>(), pushes_[0] = BodyPush<Real>();
-    taken_.resize(bodies, 0), takenByJoints_.assign(bodies, 0);
-    if (colours_.empty()) colours_.resize(kColours), jointColours_.resize(kColours);
+    domains_.resize(bodies);
+    taken_.resize(bodies * Domains::kLevels, 0), takenByJoints_.assign(bodies * Domains::kLevels, 0);
+    if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
     for (JointColour& colour : jointColours_) colour.joints.clear(), colour.index.clear(), colour.count = 0;
-    rows_.clear();
+    for (auto& rows : rows_) rows.clear();
     changes_.clear();
     hardest_ = 0;
     foresees_ = false;
@@ -51,14 +49,16 @@ template <class Real>
 void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const std::vector<RigidBody>& bodies)
 {
     const JointFrame f = frameOf(joint, state, bodies);
-    const BodyState<Real>&a = states_[joint.a], &b = states_[joint.b];
-    if (!(a.invMass + a.invInertia + b.invMass + b.invInertia > 0)) return;
-    addRows(joint, index, f, states_, shape_.h, rows_);
+    const Index slotA = domains_.slotOf(joint.a), slotB = domains_.slotOf(joint.b);
+    const BodyState<Real>&a = states_[slotA], &b = states_[slotB];
+    const bool movesA = a.invMass + a.invInertia > 0, movesB = b.invMass + b.invInertia > 0;
+    if (!movesA && !movesB) return;
+    addRows(joint, index, f, states_.data(), slotA, slotB, shape_.h, rows_[nodeOf(joint.a, movesA, joint.b, movesB)]);
     if (!joint.hasPoint()) return;
-    const int which = colourOf(joint.a, a.invMass > 0, joint.b, b.invMass > 0, takenByJoints_);
-    JointColour& colour = jointColours_[static_cast<std::size_t>(which)];
+    const std::size_t which = colourOf(joint.a, movesA, joint.b, movesB, takenByJoints_);
+    JointColour& colour = jointColours_[which];
     constexpr std::size_t lanes = kLanes<Real>;
-    if (which == kColours - 1) colour.count = groups(colour.count) * lanes;
+    if (isLast(which)) colour.count = groups(colour.count) * lanes;
     const std::size_t at = colour.count++, lane = at % lanes;
     if (lane == 0) {
         colour.joints.emplace_back(JointLanes<Real>{});
@@ -66,7 +66,7 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     }
     colour.index[at] = index;
     JointLanes<Real>& g = colour.joints[at / lanes];
-    g.a[lane] = static_cast<std::int32_t>(joint.a), g.b[lane] = static_cast<std::int32_t>(joint.b);
+    g.a[lane] = static_cast<std::int32_t>(slotA), g.b[lane] = static_cast<std::int32_t>(slotB);
     const Real ax = static_cast<Real>(f.armA.x()), ay = static_cast<Real>(f.armA.y());
     const Real bx = static_cast<Real>(f.armB.x()), by = static_cast<Real>(f.armB.y());
     g.armAX[lane] = ax, g.armAY[lane] = ay, g.armBX[lane] = bx, g.armBY[lane] = by;
@@ -81,16 +81,50 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     g.impulseX[lane] = static_cast<Real>(joint.impulse[0]), g.impulseY[lane] = static_cast<Real>(joint.impulse[1]);
 }
 
+/// Subtrees at once, as many as there are threads; then what lies above them.
 template <class Real>
 template <class Work>
-void Solver<Real>::eachColour(Work&& work)
+void Solver<Real>::eachNode(Work&& work)
 {
-    for (std::size_t which = 0; which < colours_.size(); ++which) {
-        Colour& colour = colours_[which];
-        const std::size_t count = colour.contacts.size();
-        // In the last colour lanes may share bodies.
-        pool_->ranges(count, which == kColours - 1 ? std::max<std::size_t>(count, 1) : kGroupsABlock,
-                      [&](std::size_t first, std::size_t last) { work(colour, first, last - first); });
+    int level = 0;
+    while (level < domains_.depth() && 1 << level < pool_->threads()) ++level;
+    const auto nodeAt = [](int of, std::size_t i) { return static_cast<Node>((std::size_t{1} << of) + i); };
+    pool_->run(std::size_t{1} << level, [&](std::size_t i) { domains_.below(nodeAt(level, i), work); });
+    while (level-- > 0) pool_->run(std::size_t{1} << level, [&](std::size_t i) { work(nodeAt(level, i)); });
+}
+
+template <class Real>
+template <class Bodies, class Work>
+void Solver<Real>::pass(Bodies&& bodies, Work&& work)
+{
+    const auto range = [&](Domains::Slots slots) {
+        if (slots.first < slots.last) bodies(slots.first, slots.last - slots.first);
+    };
+    range(domains_.slotsOf(Domains::kRoot));
+    eachNode([&](Node node) {
+        if (node != Domains::kRoot && domains_.isLeaf(node)) range(domains_.slotsOf(node));
+        work(node);
+    });
+}
+
+template <class Real>
+template <class Work>
+void Solver<Real>::eachColour(Node node, Work&& work)
+{
+    for (std::size_t i = 0; i < used_[node]; ++i) {
+        Colour& colour = colours_[firstColourOf(node) + i];
+        if (!colour.contacts.empty()) work(colour);
+    }
+}
+
+template <class Real>
+void Solver<Real>::countUsed()
+{
+    std::fill(std::begin(used_), std::end(used_), std::size_t{0});
+    std::fill(std::begin(usedByJoints_), std::end(usedByJoints_), std::size_t{0});
+    for (std::size_t i = 0; i < colours_.size(); ++i) {
+        if (!colours_[i].contacts.empty()) used_[nodeOf(i)] = i % kColours + 1;
+        if (!jointColours_[i].joints.empty()) usedByJoints_[nodeOf(i)] = i % kColours + 1;
     }
 }
 
@@ -101,97 +135,103 @@ void Solver<Real>::prepare(int passes)
     passes_ = passes;
     const auto ratio = static_cast<Real>(lastH_ > 0 ? shape_.h / lastH_ : 1);
     lastH_ = shape_.h;
-    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
-        ContactLanes<Real>* contacts = &c.contacts[first];
-        if (ratio != 1) kernels_->scaleContacts(contacts, &c.frictions[first], count, ratio);
-        if (bounces_) kernels_->approachContacts(states_.data(), contacts, &c.bounces[first], count);
+    countUsed();
+    if (ratio == 1 && !bounces_) return;
+    eachNode([&](Node node) {
+        eachColour(node, [&](Colour& c) {
+            ContactLanes<Real>* contacts = c.contacts.data();
+            if (ratio != 1) kernels_->scaleContacts(contacts, c.frictions.data(), c.contacts.size(), ratio);
+            if (bounces_) kernels_->approachContacts(states_.data(), contacts, c.bounces.data(), c.contacts.size());
+        });
     });
 }
 
 template <class Real>
-void Solver<Real>::warmAll()
-{
-    for (const JointRow<Real>& row : rows_) row.warm(states_.data());
-    for (JointColour& c : jointColours_) kernels_->warmJoints(states_.data(), c.joints.data(), c.joints.size());
-    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
-        kernels_->warmContacts(states_.data(), &c.contacts[first], &c.frictions[first], count);
-    });
-}
-
-template <class Real>
-void Solver<Real>::solveJointsOnce(bool push)
-{
-    for (std::size_t which = 0; which < jointColours_.size(); ++which) {
-        JointColour& c = jointColours_[which];
-        const std::size_t groups = c.joints.size();
-        pool_->ranges(groups, which == kColours - 1 ? std::max<std::size_t>(groups, 1) : kGroupsABlock,
-                      [&](std::size_t first, std::size_t last) {
-                          kernels_->solveJoints(states_.data(), &c.joints[first], last - first, constants_, push);
-                      });
-    }
-}
-
-template <class Real>
-void Solver<Real>::solveAll(bool push)
+void Solver<Real>::warmNode(Node node)
 {
     BodyState<Real>* states = states_.data();
-    const int passes = push ? passes_ : passes_ * kRelaxPasses;
-    for (int pass = 0; pass < passes; ++pass) {
-        for (JointRow<Real>& row : rows_) row.solve(states, constants_.joint, constants_.inverseH, push);
-        for (int again = 0; again < (push ? kJointPushPasses : 1); ++again) solveJointsOnce(push);
-        eachColour([&](Colour& c, std::size_t first, std::size_t count) {
-            if (push) {
-                kernels_->solveContacts(states, &c.contacts[first], count, constants_);
-            } else if (pass % kRelaxPasses != kRelaxPasses - 1) {
-                kernels_->calmContacts(states, &c.contacts[first], count, constants_);
-            } else {
-                kernels_->relaxContacts(states, &c.contacts[first], &c.frictions[first], count, constants_);
-            }
-        });
+    for (const JointRow<Real>& row : rows_[node]) row.warm(states);
+    for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
+        const JointColour& c = jointColours_[firstColourOf(node) + i];
+        kernels_->warmJoints(states, c.joints.data(), c.joints.size());
     }
+    eachColour(node, [&](Colour& c) {
+        kernels_->warmContacts(states, c.contacts.data(), c.frictions.data(), c.contacts.size());
+    });
+}
+
+/// All that holds the node's bodies together, once; `last`: nothing follows in this half of the substep.
+template <class Real>
+void Solver<Real>::solveNode(Node node, bool push, int pass, bool last)
+{
+    BodyState<Real>* states = states_.data();
+    for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, push);
+    for (int again = 0; again < (push ? kJointPushPasses : 1); ++again) {
+        for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
+            JointColour& c = jointColours_[firstColourOf(node) + i];
+            kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, push);
+        }
+    }
+    eachColour(node, [&](Colour& c) {
+        ContactLanes<Real>* contacts = c.contacts.data();
+        const std::size_t count = c.contacts.size();
+        if (push) {
+            kernels_->solveContacts(states, contacts, count, constants_);
+        } else if (pass % kRelaxPasses != kRelaxPasses - 1) {
+            kernels_->calmContacts(states, contacts, count, constants_);
+        } else {
+            kernels_->relaxContacts(states, contacts, c.frictions.data(), count, constants_);
+        }
+        if (last && bounces_) kernels_->noteImpulses(contacts, c.bounces.data(), count);
+    });
 }
 
 template <class Real>
-void Solver<Real>::noteAll()
+template <class Bodies>
+void Solver<Real>::solveAll(bool push, Bodies&& bodies)
 {
-    if (!bounces_) return;
-    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
-        kernels_->noteImpulses(&c.contacts[first], &c.bounces[first], count);
-    });
+    const int passes = push ? passes_ : passes_ * kRelaxPasses;
+    for (int i = 0; i < passes; ++i)
+        pass(
+            [&](Index first, Index count) {
+                if (i == 0) bodies(first, count);
+            },
+            [&](Node node) { solveNode(node, push, i, i + 1 == passes); });
 }
 
 template <class Real>
 void Solver<Real>::run()
 {
     // Warm starting is worked out once, on bodies at rest, and then kept up with by the body passes.
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        BodyState<Real>& s = states_[i];
-        BodyPush<Real>& p = pushes_[i];
-        p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.omega;
-        if (s.invMass > 0 || s.invInertia > 0) s.velocityX = s.velocityY = s.omega = 0;
-    }
-    warmAll();
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        BodyState<Real>& s = states_[i];
-        BodyPush<Real>& p = pushes_[i];
-        if (s.invMass > 0 || s.invInertia > 0) {
-            p.warmX = s.velocityX, p.warmY = s.velocityY, p.warmW = s.omega;
-        } else {
-            p.warmX = p.warmY = p.warmW = 0;
+    const auto moves = [](const BodyState<Real>& s) { return s.invMass > 0 || s.invInertia > 0; };
+    const auto halt = [&](Index first, Index count) {
+        for (Index i = first; i < first + count; ++i) {
+            BodyState<Real>& s = states_[i];
+            BodyPush<Real>& p = pushes_[i];
+            p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.omega;
+            if (moves(s)) s.velocityX = s.velocityY = s.omega = 0;
         }
-        s.velocityX = p.beforeX, s.velocityY = p.beforeY, s.omega = p.beforeW;
-    }
+    };
+    const auto goOn = [&](Index first, Index count) {
+        for (Index i = first; i < first + count; ++i) {
+            BodyState<Real>& s = states_[i];
+            BodyPush<Real>& p = pushes_[i];
+            if (moves(s)) {
+                p.warmX = s.velocityX, p.warmY = s.velocityY, p.warmW = s.omega;
+            } else {
+                p.warmX = p.warmY = p.warmW = 0;
+            }
+            s.velocityX = p.beforeX, s.velocityY = p.beforeY, s.omega = p.beforeW;
+        }
+    };
+    pass(halt, [&](Node node) { warmNode(node); });
     for (int i = 0; i < shape_.substeps; ++i) {
-        pool_->ranges(states_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
-            kernels_->integrateVelocities(&states_[first], &pushes_[first], last - first, constants_.h);
+        solveAll(true, [&](Index first, Index count) {
+            if (i == 0) goOn(first, count);
+            kernels_->integrateVelocities(&states_[first], &pushes_[first], count, constants_.h);
         });
-        solveAll(true);
-        noteAll();
-        pool_->ranges(states_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
-            kernels_->integratePositions(&states_[first], last - first, constants_.h);
-        });
-        solveAll(false);
-        noteAll();
+        solveAll(false,
+                 [&](Index first, Index count) { kernels_->integratePositions(&states_[first], count, constants_.h); });
     }
     bounce();
 }
@@ -199,19 +239,17 @@ void Solver<Real>::run()
 template <class Real>
 void Solver<Real>::warm()
 {
-    warmAll();
+    eachNode([&](Node node) { warmNode(node); });
 }
 template <class Real>
 void Solver<Real>::push()
 {
-    solveAll(true);
-    noteAll();
+    solveAll(true, [](Index, Index) {});
 }
 template <class Real>
 void Solver<Real>::relax()
 {
-    solveAll(false);
-    noteAll();
+    solveAll(false, [](Index, Index) {});
 }
 
 template <class Real>
@@ -219,8 +257,11 @@ void Solver<Real>::bounce()
 {
     if (!bounces_) return;
     for (int pass = 0; pass < kBouncePasses * std::min(passes_, 4); ++pass)
-        eachColour([&](Colour& c, std::size_t first, std::size_t count) {
-            kernels_->bounceContacts(states_.data(), &c.contacts[first], &c.bounces[first], count, constants_);
+        eachNode([&](Node node) {
+            eachColour(node, [&](Colour& c) {
+                kernels_->bounceContacts(states_.data(), c.contacts.data(), c.bounces.data(), c.contacts.size(),
+                                         constants_);
+            });
         });
 }
 
@@ -228,21 +269,18 @@ template <class Real>
 void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
 {
     collider.settled();
-    eachColour([&](Colour& c, std::size_t first, std::size_t count) {
-        kernels_->carryContacts(states_.data(), &c.contacts[first], bounces_ ? &c.bounces[first] : nullptr,
-                                &c.touches[first], count);
+    eachNode([&](Node node) {
+        flips_[node].clear();
+        eachColour(node, [&](Colour& c) {
+            kernels_->carryContacts(states_.data(), c.contacts.data(), bounces_ ? c.bounces.data() : nullptr,
+                                    c.touches.data(), c.contacts.size());
+            const auto colour = static_cast<std::uint32_t>(&c - colours_.data());
+            for (std::uint32_t group = 0; group < c.touches.size(); ++group)
+                if (c.touches[group] != c.touched[group]) flips_[node].push_back({colour, group});
+        });
     });
-    for (Colour& colour : colours_) {
-        for (std::size_t group = 0; group < colour.touches.size(); ++group) {
-            for (std::uint32_t rest = colour.touches[group] ^ colour.touched[group]; rest != 0; rest &= rest - 1) {
-                const std::size_t at = group * kWidth + static_cast<std::size_t>(__builtin_ctz(rest));
-                RigidContact& c = collider.contacts()[colour.index[at]];
-                fetch(c, collider.places()[colour.index[at]]);
-                change(c, (colour.touches[group] >> (at % kWidth) & 1U) != 0);
-            }
-            colour.touched[group] = colour.touches[group];
-        }
-    }
+    for (const auto& flips : flips_)
+        for (const Flip& flip : flips) noteFlip(collider, flip);
     for (const JointColour& colour : jointColours_) {
         for (std::size_t at = 0; at < colour.count; ++at) {
             if (colour.index[at] == kNone) continue;
@@ -252,13 +290,30 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
             joint.state.force += Vec2(joint.impulse[0], joint.impulse[1]) / shape_.h;
         }
     }
-    for (const JointRow<Real>& row : rows_) {
-        Joint& joint = joints[row.joint];
-        joint.impulse[row.slot] = static_cast<double>(row.impulse);
-        joint.state.force += static_cast<double>(row.impulse) / shape_.h * Vec2(row.bx, row.by);
-        if (row.bx == 0 && row.by == 0)
-            joint.state.torque += static_cast<double>(row.impulse * row.angularB) / shape_.h;
+    for (const auto& rows : rows_)
+        for (const JointRow<Real>& row : rows) {
+            Joint& joint = joints[row.joint];
+            joint.impulse[row.slot] = static_cast<double>(row.impulse);
+            joint.state.force += static_cast<double>(row.impulse) / shape_.h * Vec2(row.bx, row.by);
+            if (row.bx == 0 && row.by == 0)
+                joint.state.torque += static_cast<double>(row.impulse * row.angularB) / shape_.h;
+        }
+}
+
+/// Contacts of a group that began or ceased to touch.
+template <class Real>
+void Solver<Real>::noteFlip(Collider& collider, const Flip& flip)
+{
+    Colour& colour = colours_[flip.colour];
+    std::uint32_t& touched = colour.touched[flip.group];
+    const std::uint32_t touches = colour.touches[flip.group];
+    for (std::uint32_t rest = touches ^ touched; rest != 0; rest &= rest - 1) {
+        const std::size_t at = flip.group * kWidth + static_cast<std::size_t>(__builtin_ctz(rest));
+        RigidContact& c = collider.contacts()[colour.index[at]];
+        fetch(c, collider.places()[colour.index[at]]);
+        change(c, (touches >> (at % kWidth) & 1U) != 0);
     }
+    touched = touches;
 }
 
 template <class Real>
@@ -266,19 +321,21 @@ std::size_t Solver<Real>::colours() const
 {
     std::size_t used = 0;
     for (std::size_t i = 0; i < colours_.size(); ++i)
-        if (colours_[i].count > 0) used = i + 1;
+        if (colours_[i].count > 0) used = std::max(used, i % kColours + 1);
     return used;
 }
 
 template <class Real>
 std::size_t Solver<Real>::bytes() const
 {
-    std::size_t sum = states_.capacity() * (sizeof(BodyState<Real>) + sizeof(BodyPush<Real>) + 8);
+    std::size_t sum = states_.capacity() * (sizeof(BodyState<Real>) + sizeof(BodyPush<Real>)) +
+                      (taken_.capacity() + takenByJoints_.capacity()) * sizeof(std::uint32_t);
     for (const Colour& c : colours_)
         sum += c.contacts.capacity() * (sizeof(ContactLanes<Real>) + sizeof(FrictionLanes<Real>)) +
                c.bounces.capacity() * sizeof(BounceLanes<Real>) + c.index.capacity() * sizeof(Index);
     for (const JointColour& c : jointColours_) sum += c.joints.capacity() * sizeof(JointLanes<Real>);
-    return sum + rows_.capacity() * sizeof(JointRow<Real>);
+    for (const auto& rows : rows_) sum += rows.capacity() * sizeof(JointRow<Real>);
+    return sum + domains_.bytes() + drifts_.capacity() * sizeof(float);
 }
 
 template class Solver<float>;

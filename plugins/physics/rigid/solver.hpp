@@ -6,6 +6,7 @@
 #pragma once
 
 #include "collider.hpp"
+#include "domains.hpp"
 #include "joint.hpp"
 #include "snapshot.hpp"
 #include "solver_data.hpp"
@@ -33,8 +34,19 @@ class Solver {
 public:
     /// Forgets the joints' constraints; bodies are to be set by body() and push().
     void begin(std::size_t bodies, const StepShape&, Pool&);
-    BodyState<Real>& body(Index i) { return states_[i]; }
-    BodyPush<Real>& force(Index i) { return pushes_[i]; }
+    /// Is the body, which does not move, where only what moves may be? Then the bodies are to be divided anew.
+    bool isAstray(Index body) const { return domains_.nodeOf(body) != Domains::kRoot; }
+    /// Divides the bodies anew when that is due; between begin() and the first use of a body.
+    void divide(Collider&, const State&, const std::vector<Joint>&, bool anyway);
+    BodyState<Real>& body(Index i) { return states_[domains_.slotOf(i)]; }
+    const BodyState<Real>& body(Index i) const { return states_[domains_.slotOf(i)]; }
+    /// Calls work(body, state, push) for all bodies, many at once.
+    template <class Work>
+    void eachBody(Work&& work)
+    {
+        domains_.eachBody(*pool_, [&](Index body, Index slot) { work(body, states_[slot], pushes_[slot]); });
+    }
+    const Domains& domains() const { return domains_; }
 
     /// Updates the contacts that are due, and their constraints. `resolve` false: nothing is pushed.
     void refresh(Collider&, double dt, bool resolve);
@@ -75,7 +87,8 @@ public:
     template <class Archive>
     void archive(Archive& with, const Collider& collider)
     {
-        with(lastH_), with(bounces_);
+        with(lastH_), with(bounces_), with(bordersThen_), with(sinceDivided_);
+        domains_.archive(with, collider.bodies().size());
         if constexpr (std::is_same_v<Archive, RestoreArchive>) place(collider);
         for (Place at : collider.places())
             if (isPlaced(at)) values(at, with);
@@ -95,38 +108,67 @@ private:
         std::vector<Index> index;
         std::size_t count = 0;
     };
+    /// Groups whose lanes changed in what touches.
+    struct Flip {
+        std::uint32_t colour, group;
+    };
+    using Node = Domains::Node;
     /// What became of a contact that was looked at.
     struct Outcome {
         Index contact;
         bool kept;
     };
 
-    static constexpr int kColours = 24;  // more are solved one by one, in the last
+    static constexpr std::size_t kColours = 24;  // of a node; more are solved one by one, in the last
     static constexpr std::size_t kWidth = kLanes<Real>;
 
-    static Place placeOf(int colour, std::size_t lane)
+    static Place placeOf(std::size_t colour, std::size_t lane)
     {
         return static_cast<Place>(colour) << kLaneBits | static_cast<Place>(lane);
     }
     Colour& colourAt(Place place) { return colours_[place >> kLaneBits]; }
     const Colour& colourAt(Place place) const { return colours_[place >> kLaneBits]; }
     static std::size_t laneAt(Place place) { return place & ((1U << kLaneBits) - 1); }
-    /// The first colour neither body is in yet; what does not move is in none.
-    static int colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken);
-    /// Groups [first, last) of a colour, and what was found of them.
+    static std::size_t firstColourOf(Node node) { return (node - std::size_t{1}) * kColours; }
+    static Node nodeOf(std::size_t colour) { return static_cast<Node>(colour / kColours + 1); }
+    /// In the last colour of a node lanes may share bodies.
+    static bool isLast(std::size_t colour) { return colour % kColours == kColours - 1; }
+    Node nodeOf(Index a, bool movesA, Index b, bool movesB) const;
+    /// The first colour of their node that neither body is in yet; what does not move is in none.
+    std::size_t colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken) const;
+    std::uint32_t& takenOf(std::vector<std::uint32_t>& taken, Index body, Node node) const
+    {
+        return taken[body * Domains::kLevels + static_cast<std::size_t>(Domains::levelOf(node))];
+    }
+    /// Groups [first, last) of a colour, or some contacts without points, and what was found of them.
     struct Block {
         std::uint32_t colour = 0, first = 0, last = 0;
         float hardest = 0;
         bool foresees = false;
+        std::vector<Index> due;  // contacts without points
         std::vector<Outcome> outcomes;
     };
     void refreshPlaced(Collider&, double dt, bool resolve);
     void refreshBlock(Collider&, double dt, bool resolve, Block&);
     void refreshIdle(Collider&, double dt, bool resolve);
+    void refreshIdle(Collider&, double dt, std::size_t first, std::size_t last, Block&);
+    void settleBlocks(Collider&, std::size_t count, bool resolve);
     Block& blockAt(std::size_t);
-    /// Calls work(colour, first group, last) for all colours in turn; groups of one at once.
+    /// Calls work(node), children before their parents, otherwise at once.
     template <class Work>
-    void eachColour(Work&& work);
+    void eachNode(Work&& work);
+    /// The same, but first calls bodies(first, last) for the slots of each domain.
+    template <class Bodies, class Work>
+    void pass(Bodies&& bodies, Work&& work);
+    /// Calls work(colour) for the colours of a node in turn.
+    template <class Work>
+    void eachColour(Node node, Work&& work);
+    void countUsed();
+    bool isDivisionDue(const Collider&, std::size_t joints, int& depth) const;
+    std::size_t borderContacts() const;
+    void moveToNodes(Collider&);
+    static void copyLane(const Colour& from, std::size_t source, Colour& to, std::size_t target, bool bounces);
+    static void clear(Colour&);
     void settle(Collider&, const Outcome&, bool resolve);
     void admit(Collider&, Index contact);
     void remove(Collider&, Index contact);
@@ -159,26 +201,31 @@ private:
         BounceLanes<Real>& r = colour.bounces[group];
         value(r.restitution), value(r.most[0]), value(r.most[1]);
     }
-    void scaleImpulses(Real by);
-    void warmAll();
-    void solveAll(bool push);
-    void solveJointsOnce(bool push);
-    void noteAll();
+    void noteFlip(Collider&, const Flip&);
+    void warmNode(Node);
+    void solveNode(Node, bool push, int pass, bool last);
+    template <class Bodies>
+    void solveAll(bool push, Bodies&& bodies);
     static std::size_t groups(std::size_t lanes) { return (lanes + kWidth - 1) / kWidth; }
 
     StepShape shape_;
     int passes_ = 1;
     StepConstants<Real> constants_;
     const Kernels<Real>* kernels_ = nullptr;
-    std::vector<BodyState<Real>> states_;
+    std::vector<BodyState<Real>> states_;  // [slots]
     std::vector<BodyPush<Real>> pushes_;
-    std::vector<std::uint32_t> taken_, takenByJoints_;  // [bodies] colours
-    std::vector<Colour> colours_;
-    std::vector<JointColour> jointColours_;
-    std::vector<JointRow<Real>> rows_;
+    Domains domains_;
+    std::uint64_t bordersThen_ = 0;                     // contacts between domains after the last division
+    std::uint64_t sinceDivided_ = 0;                    // steps
+    std::vector<std::uint32_t> taken_, takenByJoints_;  // [bodies][levels] colours
+    std::vector<Colour> colours_;                       // [nodes][colours]
+    std::vector<JointColour> jointColours_;             // the same
+    std::size_t used_[Domains::kNodes + 1] = {}, usedByJoints_[Domains::kNodes + 1] = {};  // [nodes] colours
+    std::vector<JointRow<Real>> rows_[Domains::kNodes + 1];
+    std::vector<Flip> flips_[Domains::kNodes + 1];
+    std::vector<float> drifts_;  // [slots] of the collider
     Pool* pool_ = nullptr;
-    std::vector<Block> blocks_;   // never shrinks, so that nothing is allocated in a steady step
-    std::vector<Index> idleDue_;  // contacts
+    std::vector<Block> blocks_;  // never shrinks, so that nothing is allocated in a steady step
     std::vector<TouchChange> changes_;
     double lastH_ = 0;  // seconds: the impulses are of substeps of this
     float hardest_ = 0;

@@ -177,10 +177,11 @@ void RigidStage::look(Solver<Real>& solver, State& state, const WorldSettings& s
     }
     if (resolving_ != settings.resolveCollisions) solver.release(collider_);
     resolving_ = settings.resolveCollisions;
-    collider_.find(state, settings, dt, stats, pool_);
+    collider_.find(state, settings, dt, stats, pool_, solver.domains());
     const auto start = std::chrono::steady_clock::now();
     refresh(solver, state, settings, dt);
-    for (int round = 0; round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt); ++round)
+    for (int round = 0; round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt, pool_);
+         ++round)
         refresh(solver, state, settings, dt);
     stats.narrowPhaseMs += millisecondsSince(start);
 }
@@ -203,15 +204,22 @@ template <class Real>
 void RigidStage::load(Solver<Real>& solver, const State& state)
 {
     const Nodes& nodes = state.nodes;
-    for (Index i = 1; i < collider_.bodies().size(); ++i) {
-        const Index node = collider_.bodies()[i].node;
-        BodyState<Real>& s = solver.body(i);
+    std::atomic<bool> astray = false;
+    const auto take = [&](Index i, BodyState<Real>& s, BodyPush<Real>&) {
+        const RigidBody& body = collider_.bodies()[i];
+        const Index node = body.node;
         s.velocityX = static_cast<Real>(nodes.velocity[node].x()),
         s.velocityY = static_cast<Real>(nodes.velocity[node].y());
         s.omega = static_cast<Real>(nodes.omega[node]);
         s.invMass = static_cast<Real>(nodes.invMass[node]), s.invInertia = static_cast<Real>(nodes.invInertia[node]);
         s.moveX = s.moveY = s.turn = 0;
-    }
+        if (!body.moves && solver.isAstray(i)) astray = true;
+    };
+    solver.divide(collider_, state, joints_, false);
+    solver.eachBody(take);
+    if (!astray) return;
+    solver.divide(collider_, state, joints_, true);
+    solver.eachBody(take);
 }
 
 template <class Real>
@@ -246,6 +254,7 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     const bool large = count() > kSmallWorld;
     const StepShape shape = shapeOf(settings, dt, large);
     pool_.setThreads(settings.threads);
+    const Pool::Attention attention(pool_);
     solver.begin(collider_.bodies().size(), shape, pool_);
     substeps_ = shape.substeps;
     drowsy_ = false;
@@ -255,17 +264,16 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     const auto start = std::chrono::steady_clock::now();
     const double linear = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
-    for (Index i = 1; i < collider_.bodies().size(); ++i) {
+    solver.eachBody([&](Index i, BodyState<Real>&, BodyPush<Real>& force) {
         const RigidBody& body = collider_.bodies()[i];
-        BodyPush<Real>& force = solver.force(i);
         force = BodyPush<Real>();
-        if (!body.moves || body.asleep) continue;
+        if (!body.moves || body.asleep) return;
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
         const Vec2 pull = scale * settings.gravity + state.nodes.invMass[body.node] * state.nodes.force[body.node];
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
         force.accelerationW = static_cast<Real>(state.nodes.invInertia[body.node] * state.nodes.torque[body.node]);
         force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
-    }
+    });
     addJoints(solver, state);
     solver.prepare(passesFor(solver.hardestHit(), large, shape.h));
     solver.run();
@@ -280,32 +288,46 @@ template <class Real>
 void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
 {
     Nodes& nodes = state.nodes;
-    const std::size_t count = collider_.bodies().size();
-    moves_.resize(count), turns_.resize(count);
-    bool fast = false;
-    for (Index i = 1; i < count; ++i) {
-        const BodyState<Real>& s = solver.body(i);
-        moves_[i] = {static_cast<double>(s.moveX), static_cast<double>(s.moveY)};
-        turns_[i] = static_cast<double>(s.turn);
-        const RigidBody& body = collider_.bodies()[i];
-        fast |= body.moves &&
-                moves_[i].squaredNorm() > 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length);
+    const auto moveOf = [](const BodyState<Real>& s) {
+        return Vec2(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
+    };
+    const bool fast = anyFast(solver);
+    if (fast) {
+        moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
+        solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
+            moves_[i] = moveOf(s), turns_[i] = static_cast<double>(s.turn);
+        });
+        collider_.stopTunnelling(allowed_, moves_, turns_, dt);
     }
-    if (fast) collider_.stopTunnelling(allowed_, moves_, turns_, dt);
-    for (Index i = 1; i < count; ++i) {
+    solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
         const RigidBody& body = collider_.bodies()[i];
-        if ((!body.moves && !body.kinematic) || body.asleep) continue;
-        const BodyState<Real>& s = solver.body(i);
+        if ((!body.moves && !body.kinematic) || body.asleep) return;
         const double part = fast ? static_cast<double>(allowed_[i]) : 1;
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
         nodes.omega[body.node] = static_cast<double>(s.omega);
-        nodes.position[body.node] += part * moves_[i];
-        const double turn = part * turns_[i];
-        collider_.travelled(i, part * moves_[i].norm() + std::abs(turn) * static_cast<double>(body.reach));
-        if (turn == 0) continue;
+        const Vec2 move = part * moveOf(s);
+        nodes.position[body.node] += move;
+        const double turn = part * static_cast<double>(s.turn);
+        collider_.travelled(i, part * moveOf(s).norm() + std::abs(turn) * static_cast<double>(body.reach));
+        if (turn == 0) return;
         nodes.angle[body.node] += turn;
         nodes.rotation[body.node] = direction(nodes.angle[body.node]);
-    }
+    });
+}
+
+/// Has a body moved by a quarter of its length, or more?
+template <class Real>
+bool RigidStage::anyFast(Solver<Real>& solver)
+{
+    std::atomic<bool> any = false;
+    solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
+        const RigidBody& body = collider_.bodies()[i];
+        const Vec2 move(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
+        if (body.moves &&
+            move.squaredNorm() > 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length))
+            any.store(true, std::memory_order_relaxed);
+    });
+    return any;
 }
 
 void RigidStage::begin(State& state, const WorldSettings& settings, double h, double dt, StepStats& stats)

@@ -126,6 +126,8 @@ private:
     void activate(bool singles);
     template <class Real>
     void advance(Solver<Real>&, State&, double dt);
+    template <class Real>
+    bool anyFast(Solver<Real>&);
     void exchange(State&, bool store);
     void noteTouches(const std::vector<TouchChange>&);
     void tellPartings();

@@ -175,7 +175,7 @@ void Joints::solve(State& state, Held& held, bool push)
         end->invMass = pose->invMass, end->invInertia = pose->invInertia;
     }
     rows_.clear();
-    addRows(joint, 0, f, ends_, h_, rows_);
+    addRows(joint, 0, f, ends_.data(), joint.a, joint.b, h_, rows_);
     const Vec2 apart = f.pointB - f.pointA;
     if (joint.hasPoint()) {
         for (int axis = 0; axis < 2; ++axis) {

@@ -75,11 +75,9 @@ public:
         const std::vector<Pose> now = posesOf(*engine_, scene_.bodies.size());
         nlohmann::ordered_json quality = qualityOf(scene_, before_, now);
         if (!scene_.soft.empty()) quality.update(watch_.quality(now));
-        return {{"median", part(times_, 50)},
-                {"p95", part(times_, 95)},
-                {"wall", part(walls_, 50)},
-                {"memory", engine_->memory()},
-                {"heap", heap - std::min(heap, heap_)},
+        return {{"median", part(times_, 50)},  {"p95", part(times_, 95)},
+                {"wall", part(walls_, 50)},    {"undisturbed", part(walls_, 10)},
+                {"memory", engine_->memory()}, {"heap", heap - std::min(heap, heap_)},
                 {"quality", quality}};
     }
 
@@ -224,7 +222,7 @@ bool Contestant::receive()
         problem_ = text;
     } else if (kind == kDone) {
         const auto json = nlohmann::ordered_json::parse(text);
-        result_ = {json.at("median"), json.at("p95"),  json.at("wall"),
+        result_ = {json.at("median"), json.at("p95"),  json.at("wall"),   json.at("undisturbed"),
                    json.at("memory"), json.at("heap"), json.at("quality")};
     }
     return complete && kind == kMore;

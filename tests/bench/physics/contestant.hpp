@@ -15,8 +15,9 @@
 namespace jet::bench {
 
 struct Measured {
-    double median = 0, p95 = 0, wall = 0;  // ms a step
-    std::size_t memory = 0, heap = 0;      // bytes: as the engine counts, as the heap grew
+    double median = 0, p95 = 0;        // ms a step, of the processor
+    double wall = 0, undisturbed = 0;  // ms a step by the clock: median, tenth part
+    std::size_t memory = 0, heap = 0;  // bytes: as the engine counts, as the heap grew
     nlohmann::ordered_json quality;
 };
 

@@ -73,6 +73,7 @@ void report(const Scene& scene, const std::string& label, const std::string& key
     json[key + "_ms"] = result.median;
     json[key + "_p95_ms"] = result.p95;
     json[key + "_wall_ms"] = result.wall;
+    json[key + "_wall_p10_ms"] = result.undisturbed;
     json[key + "_heap_bytes_a_body"] = heap;
     if (isJet(key) && result.memory > 0) json[key + "_bytes_a_body"] = result.memory / scene.bodies.size();
     json[key == "jet" ? "quality" : "quality_" + key] = result.quality;

@@ -1,0 +1,119 @@
+// How the bodies of a large world are divided, so that threads share as little as can be.
+//
+// Domains are the leaves of a binary tree: the root is node 1, the children of node n are 2n and 2n + 1. What holds two
+// bodies together belongs to the lowest node above both: to their domain, or to the border between two domains. Nodes
+// that do not lie above each other have no body in common, so they may be solved at once; a node comes after its
+// children. Which body is where does not depend on the count of threads, so neither do results.
+//
+// Bodies of a domain lie side by side in the solver's arrays, in *slots*, and never in one cache line with another's.
+#pragma once
+
+#include "pool.hpp"
+#include "snapshot.hpp"
+#include "state.hpp"
+
+namespace jet::physics {
+
+class Domains {
+public:
+    using Node = std::uint8_t;
+    static constexpr std::size_t kBlock = 512;  // slots a thread takes at once where there are no domains
+    static constexpr Node kRoot = 1;
+    static constexpr int kMostDepth = 2, kLevels = kMostDepth + 1;
+    static constexpr std::size_t kNodes = (std::size_t{2} << kMostDepth) - 1;
+
+    struct Body {
+        Index body = 0;
+        double x = 0, y = 0;  // scene units
+    };
+    struct Slots {
+        Index first = 0, last = 0;  // [first, last)
+    };
+
+    /// 0: undivided; every body is the root's.
+    int depth() const { return depth_; }
+    std::size_t leaves() const { return std::size_t{1} << depth_; }
+    Node leaf(std::size_t index) const { return static_cast<Node>(leaves() + index); }
+    bool isLeaf(Node node) const { return levelOf(node) == depth_; }
+
+    Node nodeOf(Index body) const { return nodes_[body]; }
+    /// The lowest node above both.
+    static Node meet(Node a, Node b)
+    {
+        while (a != b) (a > b ? a : b) >>= 1;
+        return a;
+    }
+    /// Calls work(n) for the node and all below it, children first.
+    template <class Work>
+    void below(Node node, Work&& work) const
+    {
+        if (!isLeaf(node)) below(static_cast<Node>(2 * node), work), below(static_cast<Node>(2 * node + 1), work);
+        work(node);
+    }
+    static int levelOf(Node node) { return 31 - __builtin_clz(node); }
+
+    /// Body 0 is in slot 0; those of the root alone come last.
+    Index slotOf(Index body) const { return slots_[body]; }
+    /// kNone: nobody's.
+    Index bodyAt(Index slot) const { return bodies_[slot]; }
+    Slots slotsOf(Node node) const { return ranges_[node]; }
+    std::size_t slotCount() const { return bodies_.size(); }
+    /// Bodies that came since the division; they are the root's.
+    std::size_t newcomers() const { return newcomers_; }
+
+    /// Calls work(body, slot) for each body, those of different domains at once. One thread goes by the bodies'
+    /// numbers, as other stages keep them in that order.
+    template <class Work>
+    void eachBody(Pool& pool, Work&& work) const
+    {
+        const auto range = [&](std::size_t first, std::size_t last) {
+            for (std::size_t slot = first; slot < last; ++slot) work(bodies_[slot], static_cast<Index>(slot));
+        };
+        if (pool.threads() == 1) {
+            for (Index body = 1; body < slots_.size(); ++body) work(body, slots_[body]);
+            return;
+        }
+        if (depth_ > 0)
+            pool.run(leaves(), [&](std::size_t i) { range(ranges_[leaf(i)].first, ranges_[leaf(i)].last); });
+        const Slots rest = ranges_[kRoot];
+        pool.ranges(rest.last - rest.first, kBlock,
+                    [&](std::size_t first, std::size_t last) { range(rest.first + first, rest.first + last); });
+    }
+
+    /// New bodies go to the root.
+    void resize(std::size_t bodies);
+    /// Divides bodies that move, each weighing its links and one; `links` hold two of them together. Where the tree is
+    /// cut, few links go across, and small groups of linked bodies stay whole.
+    void divide(int depth, std::vector<Body> bodies, const std::vector<std::pair<Index, Index>>& links);
+    std::size_t bytes() const { return nodes_.capacity() * (sizeof(Node) + 2 * sizeof(Index)); }
+
+    template <class Archive>
+    void archive(Archive& with, std::size_t bodies)
+    {
+        resize(bodies);
+        with(depth_), with(newcomers_), with(nodes_);
+        if (depth_ < 0 || depth_ > kMostDepth) RestoreArchive::fail();
+        if constexpr (std::is_same_v<Archive, RestoreArchive>) place();
+    }
+
+private:
+    struct Item {
+        Body at;
+        Index group;  // bodies of one group are not parted
+        float weight;
+    };
+    void group(std::vector<Item>&, const std::vector<std::pair<Index, Index>>& links) const;
+    void bisect(Node, std::vector<Item>&, std::size_t first, std::size_t last,
+                const std::vector<std::pair<Index, Index>>& links);
+    static std::size_t cutOf(const std::vector<Item>&, std::size_t first, std::size_t last, float total, bool upright);
+    void place();
+
+    int depth_ = 0;
+    std::uint64_t newcomers_ = 0;
+    std::vector<Node> nodes_;    // [bodies]
+    std::vector<Index> slots_;   // [bodies]
+    std::vector<Index> bodies_;  // [slots]
+    Slots ranges_[kNodes + 1];
+};
+
+}  // namespace jet::physics

@@ -1,0 +1,75 @@
+// The threads of a world: every block is done once, by whomever.
+#include "rigid/pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace jet::physics::test {
+
+namespace {
+
+TEST(Pool, DoesEveryBlockOnceHoweverManyThereAre)
+{
+    for (const int threads : {1, 2, 3, 7}) {
+        Pool pool;
+        pool.setThreads(threads);
+        for (const std::size_t blocks : {0U, 1U, 2U, 3U, 8U, 100U}) {
+            for (int again = 0; again < 200; ++again) {
+                std::vector<int> done(blocks, 0);
+                pool.run(blocks, [&](std::size_t block) { ++done[block]; });
+                ASSERT_EQ(done, std::vector<int>(blocks, 1)) << threads << " threads, time " << again;
+            }
+        }
+    }
+}
+
+TEST(Pool, WhatOneTaskWroteTheNextOneReads)
+{
+    Pool pool;
+    pool.setThreads(2);
+    const Pool::Attention attention(pool);
+    std::vector<std::uint64_t> values(64);
+    std::iota(values.begin(), values.end(), 0U);
+    for (int round = 0; round < 5000; ++round) {
+        // Each block reads what another one wrote in the round before.
+        std::vector<std::uint64_t> next(values.size());
+        pool.run(values.size(), [&](std::size_t i) { next[i] = values[(i + 31) % values.size()] + 1; });
+        values.swap(next);
+    }
+    std::vector<std::uint64_t> expected(values.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = (i + 31U * 5000U) % 64U + 5000U;
+    EXPECT_EQ(values, expected);
+}
+
+TEST(Pool, CutsRangesWithoutGapsOrOverlaps)
+{
+    Pool pool;
+    pool.setThreads(3);
+    for (const std::size_t count : {0U, 1U, 10U, 11U, 1000U}) {
+        std::vector<int> seen(count, 0);
+        pool.ranges(count, 10, [&](std::size_t first, std::size_t last) {
+            EXPECT_LE(last - first, 10U);
+            for (std::size_t i = first; i < last; ++i) ++seen[i];
+        });
+        EXPECT_EQ(seen, std::vector<int>(count, 1));
+    }
+}
+
+TEST(Pool, WorkersThatSleepAreWokenAndMayChangeInNumber)
+{
+    Pool pool;
+    for (const int threads : {2, 4, 1, 3}) {
+        pool.setThreads(threads);
+        for (int i = 0; i < 3; ++i) {
+            std::atomic<int> sum = 0;
+            pool.run(50, [&](std::size_t block) { sum += static_cast<int>(block); });
+            EXPECT_EQ(sum, 1225);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace jet::physics::test
