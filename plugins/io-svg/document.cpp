@@ -150,8 +150,10 @@ Document::Document(const SourceText& source, Report& report) : source_(source)
         report.note("the entity '" + name + "' contains itself or grows beyond measure; it is left out",
                     std::min(text.find("<!ENTITY " + name), text.size()));
     }
-    const pugi::xml_parse_result parsed =
-        xml_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+    // Space between the spans of a text is a part of it; drawings without any do without those nodes.
+    const bool hasSpans = text.find("tspan") != text.npos;
+    const unsigned how = pugi::parse_default | (hasSpans ? pugi::parse_ws_pcdata : 0U);
+    const pugi::xml_parse_result parsed = xml_.load_buffer(text.data(), text.size(), how, pugi::encoding_utf8);
     if (!parsed) brokenAt_ = std::size_t(std::max<std::ptrdiff_t>(parsed.offset, 0));
     for (pugi::xml_node root = nextElement(xml_.first_child()); root; root = nextElement(root.next_sibling())) {
         if (localName(root.name()) != "svg") continue;

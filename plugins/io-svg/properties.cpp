@@ -221,6 +221,7 @@ const PropertyRule kRules[] = {
     {"font-weight", true, readWeight, copy<&Style::bold>},
     {"font-style", true, [](Style& s, Value v, Lengths) { return s.italic = v != "normal", true; },
      copy<&Style::italic>},
+    {"white-space", true, [](Style& s, Value v, Lengths) { return s.whiteSpace = v, true; }, copy<&Style::whiteSpace>},
     {"text-anchor", true, readAnchor, copy<&Style::anchor>},
     {"dominant-baseline", false, [](Style& s, Value v, Lengths) { return s.baseline = v, true; },
      copy<&Style::baseline>},

@@ -1,5 +1,7 @@
 #include "style.hpp"
 
+#include "font.hpp"
+
 #include <algorithm>
 
 namespace jet::svg {
@@ -52,15 +54,28 @@ struct StyleResolver::Winner {
 
 void StyleResolver::gather(ElementIndex e, std::span<Winner> winners)
 {
+    const auto offerOne = [&](std::string_view name, std::string_view value, std::uint64_t rank) {
+        const int property = findProperty(name);
+        if (property >= 0) winners[std::size_t(property)].offer(value, rank);
+    };
     const auto offer = [&](const Declaration& d, std::uint64_t rank) {
-        const int property = findProperty(d.property);
-        if (property >= 0) winners[std::size_t(property)].offer(d.value, rank | (d.important ? kImportant : 0));
+        rank |= d.important ? kImportant : 0;
+        if (d.property != "font") return offerOne(d.property, d.value, rank);
+        const bool isWide = d.value == "inherit" || d.value == "initial";
+        const auto font = isWide ? FontShorthand{d.value, d.value, d.value, d.value} : parseFont(d.value);
+        if (!font) return;
+        offerOne("font-style", font->style, rank);
+        offerOne("font-weight", font->weight, rank);
+        offerOne("font-size", font->size, rank);
+        offerOne("font-family", font->family, rank);
     };
     std::string_view styleAttribute;
     for (const pugi::xml_attribute& a : document_[e].node.attributes()) {
         const std::string_view name = a.name();
         if (name == "style") {
             styleAttribute = a.value();
+        } else if (name == "font") {
+            offer({name, trimmed(a.value()), false}, kAttributeRank);
         } else if (const int property = findProperty(name);
                    property >= 0 && propertyRules()[std::size_t(property)].attribute) {
             offer({name, trimmed(a.value()), false}, kAttributeRank);

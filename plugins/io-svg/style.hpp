@@ -51,6 +51,7 @@ struct Style {
     std::string_view fontFamily;              ///< a list, as written
     std::string_view anchor = "start";
     bool bold = false, italic = false;
+    std::string_view whiteSpace;  ///< the CSS property; empty: xml:space tells
     // not inherited
     std::string_view baseline = "auto";  ///< dominant-baseline
     bool display = true;

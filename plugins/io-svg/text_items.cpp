@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace jet::svg {
 
@@ -62,7 +63,7 @@ public:
             bool preserved;
         };
         ElementIndex element = e;  // elements are numbered in the order they are met
-        std::vector<Level> open{{document_[e].node.first_child(), style, isPreserved(e, false)}};
+        std::vector<Level> open{{document_[e].node.first_child(), style, isPreserved(e, style, false)}};
         place(e, style);
         while (!open.empty() && runs_.size() < kMostRuns) {
             Level& level = open.back();
@@ -76,7 +77,9 @@ public:
                 write(node.value(), level.style, level.preserved);
             } else if (node.type() == pugi::node_element) {
                 const ElementIndex child = ++element;
-                Level inner{node.first_child(), enter(child, level.style), isPreserved(child, level.preserved)};
+                Style own = enter(child, level.style);
+                const bool preserved = isPreserved(child, own, level.preserved);
+                Level inner{node.first_child(), std::move(own), preserved};
                 if (skips(child, inner.style)) {
                     element = document_[child].next - 1;
                 } else {
@@ -89,8 +92,12 @@ public:
     }
 
 private:
-    bool isPreserved(ElementIndex e, bool around) const
+    /// Are all its spaces kept? CSS's white-space has the last word, as in SVG 2.
+    bool isPreserved(ElementIndex e, const Style& style, bool around) const
     {
+        if (!style.whiteSpace.empty())
+            return style.whiteSpace.starts_with("pre") ? style.whiteSpace != "pre-line"
+                                                       : style.whiteSpace == "break-spaces";
         const Element& element = document_[e];
         return element.has("xml:space") ? element.attribute("xml:space") == "preserve" : around;
     }
@@ -167,7 +174,31 @@ private:
             const bool last = i + 1 == runs_.size() || runs_[i + 1].placed;
             if (last && runs_[i].text.ends_with(' ')) runs_[i].text.pop_back();
         }
-        std::erase_if(runs_, [](const Run& run) { return run.text.find_first_not_of(' ') == std::string::npos; });
+        giveSpacesAway();
+    }
+
+    /// Runs of nothing but space make no items: their spaces go to the run before in the line, else to the one after.
+    void giveSpacesAway()
+    {
+        std::vector<Run> kept;
+        std::size_t lineStart = 0;
+        std::optional<Run> blank;  // the line has nothing else so far
+        for (Run& run : runs_) {
+            if (run.placed) blank.reset(), lineStart = kept.size();
+            if (run.text.find_first_not_of(' ') != std::string::npos) {
+                if (blank) run.placed = true;
+                if (blank && !blank->text.empty()) run.at = blank->at, run.text.insert(0, blank->text);
+                blank.reset();
+                kept.push_back(std::move(run));
+            } else if (kept.size() > lineStart) {
+                kept.back().text += run.text;
+            } else if (blank) {
+                blank->text += run.text;
+            } else {
+                blank = std::move(run);
+            }
+        }
+        runs_ = std::move(kept);
     }
 
     TextItems& items_;

@@ -77,6 +77,86 @@ TEST_F(SvgTextTest, PiecesOfSeveralStylesInALineFollowEachOtherAndThatIsNoted)
     EXPECT_TRUE(noted("guessed widths")) << allNotes();
 }
 
+TEST_F(SvgTextTest, SpaceBetweenSpansIsKeptAndOfSeveralSpacesOne)
+{
+    draw("<text x='5' y='20'><tspan fill='red'>one</tspan> <tspan fill='blue'>two</tspan>\n\t"
+         "<tspan fill='red'>three</tspan> </text>");
+    ASSERT_EQ(texts().size(), 3u);
+    EXPECT_EQ(of(*texts()[0], "text"), "one ");
+    EXPECT_EQ(of(*texts()[1], "text"), "two ");
+    EXPECT_EQ(of(*texts()[2], "text"), "three") << "the end of a line has none";
+}
+
+TEST_F(SvgTextTest, SpansOfOneStyleAreOneTextWithTheirSpace)
+{
+    draw("<text x='5' y='20'><tspan>one</tspan> <tspan>two</tspan></text>");
+    ASSERT_EQ(texts().size(), 1u);
+    EXPECT_EQ(of(*texts()[0], "text"), "one two");
+}
+
+TEST_F(SvgTextTest, SpaceBeforeTheFirstSpanOfALineIsNone)
+{
+    draw("<text x='5' y='20'>\n  <tspan fill='red'>one</tspan>\n  <tspan x='5' y='40'> <tspan fill='blue'>two</tspan>"
+         "</tspan></text>");
+    ASSERT_EQ(texts().size(), 2u);
+    EXPECT_EQ(of(*texts()[0], "text"), "one");
+    EXPECT_TRUE(anchorOf(*texts()[0]).isApprox(Vec2(5, 20)));
+    EXPECT_EQ(of(*texts()[1], "text"), "two");
+    EXPECT_TRUE(anchorOf(*texts()[1]).isApprox(Vec2(5, 40))) << "a line of its own";
+}
+
+TEST_F(SvgTextTest, PreservedSpacesStay)
+{
+    draw("<text x='5' y='20' xml:space='preserve'><tspan fill='red'>a</tspan>   <tspan fill='blue'>b</tspan></text>"
+         "<text x='5' y='40' style='white-space:pre'>c   d</text>"
+         "<text x='5' y='60' xml:space='preserve' style='white-space:normal'>e   f</text>");
+    ASSERT_EQ(texts().size(), 4u);
+    EXPECT_EQ(of(*texts()[0], "text"), "a   ");
+    EXPECT_EQ(of(*texts()[1], "text"), "b");
+    EXPECT_EQ(of(*texts()[2], "text"), "c   d");
+    EXPECT_EQ(of(*texts()[3], "text"), "e f") << "CSS has the last word";
+}
+
+TEST_F(SvgTextTest, TheFontShorthandIsReadAsWhatItStandsFor)
+{
+    struct Case {
+        const char* font;
+        double size;
+        const char* family;
+        bool bold;
+    };
+    const Case cases[] = {
+        {"20px Georgia", 20, "Georgia", false},
+        {"italic small-caps bold condensed 16px/2 'DejaVu Sans', serif", 16, "DejaVu Sans", true},
+        {"normal 1.5em / 30px Arial", 15, "Arial", false},
+        {"700 12px monospace", 12, "monospace", true},
+        {"12 monospace", 12, "monospace", false},
+        {"large serif", 14.4, "serif", false},
+        {"bold", 10, "", false},
+        {"bold 12px", 10, "", false},
+        {"caption", 10, "", false},
+    };
+    for (const Case& one : cases) {
+        scene_.undoRedo().undo();
+        notes_.clear();
+        draw("<g font-size='10'><text style=\"font: " + std::string(one.font) + "\">x</text></g>");
+        ASSERT_EQ(texts().size(), 1u) << one.font;
+        EXPECT_NEAR(texts()[0]->property("size")->as<double>(), one.size, 1e-9) << one.font;
+        EXPECT_EQ(of(*texts()[0], "font"), one.family) << one.font;
+        EXPECT_EQ(noted("bold and italic"), one.bold) << one.font;
+    }
+}
+
+TEST_F(SvgTextTest, TheFontShorthandResetsWhatItDoesNotNameAndLaterOnesWin)
+{
+    draw("<style>text { font: 30px Arial; font-size: 18px } .plain { font: 20px Arial }</style>"
+         "<g font-weight='bold'><text class='plain' font-size='5'>x</text></g><text font='9px Arial'>y</text>");
+    ASSERT_EQ(texts().size(), 2u);
+    EXPECT_DOUBLE_EQ(texts()[0]->property("size")->as<double>(), 20);
+    EXPECT_DOUBLE_EQ(texts()[1]->property("size")->as<double>(), 18) << "a style sheet before an attribute";
+    EXPECT_FALSE(noted("bold and italic")) << "the shorthand made it regular";
+}
+
 TEST_F(SvgTextTest, TransformsTurnAndScaleText)
 {
     draw("<g transform='translate(10 20) rotate(90) scale(2)'><text font-size='10'>a</text></g>");
