@@ -3,6 +3,7 @@
 #include "canvas/qt_input.hpp"
 
 #include <jet/ui/qt_painter.hpp>
+#include <jet/ui/scene_drop.hpp>
 
 #include <QDragEnterEvent>
 #include <QMimeData>
@@ -164,6 +165,13 @@ void SceneView::setToolCursor(const QCursor& cursor)
     updateCursor();
 }
 
+void SceneView::clickTool(const PointerEvent& click)
+{
+    if (!tool_) return;
+    tool_->press(click);
+    tool_->release(click);
+}
+
 void SceneView::updateCursor()
 {
     if (pan_ && pan_->moved) {
@@ -290,7 +298,9 @@ bool SceneView::event(QEvent* event)
         const auto* key = static_cast<QKeyEvent*>(event);
         const bool plain = !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
         const bool function = key->key() >= Qt::Key_F1 && key->key() <= Qt::Key_F35;
-        if (plain && !function) event->accept();
+        const bool letters =
+            tool_ && tool_->isTextEditing() && !(key->modifiers() & (Qt::AltModifier | Qt::MetaModifier));
+        if ((plain || letters) && !function) event->accept();
     }
     return QWidget::event(event);
 }
@@ -333,22 +343,30 @@ void SceneView::focusOutEvent(QFocusEvent* event)
     QWidget::focusOutEvent(event);
 }
 
-// --- files dropped on the view
+// --- what is dropped on the view
 
 void SceneView::dragEnterEvent(QDragEnterEvent* event)
 {
-    if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+    if (event->mimeData()->hasUrls() || event->mimeData()->hasFormat(ui::kSceneDrag)) event->acceptProposedAction();
 }
 
 void SceneView::dropEvent(QDropEvent* event)
 {
+    const Vec2 at = camera_.toScene(toVec(event->position()));
+    if (event->mimeData()->hasFormat(ui::kSceneDrag)) {
+        event->acceptProposedAction();
+        endGesture();
+        setFocus();  // what was dropped is selected there
+        const std::string data = event->mimeData()->data(ui::kSceneDrag).toStdString();
+        editor_.events().post(&editor_, ui::DroppedOnScene{&scene_, at, data});
+        return;
+    }
     QStringList files;
     for (const QUrl& url : event->mimeData()->urls()) {
         if (url.isLocalFile()) files << url.toLocalFile();
     }
     if (files.isEmpty()) return;
     event->acceptProposedAction();
-    const Vec2 at = camera_.toScene(toVec(event->position()));
     emit filesDropped(files, {at.x(), at.y()});
 }
 

@@ -85,6 +85,7 @@ private:
     double surfaceScale() const override { return camera_.view().scale; }
     void repaintTool() override { update(); }
     void setToolCursor(const QCursor& cursor) override;
+    void clickTool(const PointerEvent& click) override;
 
     PointerEvent pointerEvent(const QMouseEvent& event, Qt::MouseButton button) const;
     void startPan(const QMouseEvent& event);

@@ -27,7 +27,7 @@ constexpr Color kAccent{61, 139, 253, 255};
 
 ToolSession::ToolSession(std::string id, Scene& scene, Editor& editor, ToolOptions& options, ToolSurface& surface)
     : id_(std::move(id)), scene_(scene), editor_(editor), options_(options.of(id_)), surface_(surface),
-      tool_(editor.catalog().createTool(id_, *this))
+      self_(std::make_shared<ToolSurface*>(&surface)), tool_(editor.catalog().createTool(id_, *this))
 {
 }
 
@@ -68,6 +68,7 @@ void ToolSession::deactivate()
         tool.deactivate();
         return true;
     });
+    textEditing_ = false;
 }
 
 void ToolSession::press(const PointerEvent& event) { guarded(&Tool::press, event); }
@@ -125,14 +126,28 @@ void ToolSession::setCursor(std::string_view name)
     surface_.setToolCursor(cursor_);
 }
 
-void ToolSession::switchTool(std::string_view id)
+bool ToolSession::hasTool(std::string_view id) const
 {
     const auto tools = editor_.catalog().contributions(ContributionKind::Tool);
-    const auto found =
-        std::find_if(tools.begin(), tools.end(), [&](const Contribution& tool) { return tool.id == id; });
-    if (found == tools.end()) return;
+    return std::any_of(tools.begin(), tools.end(), [&](const Contribution& tool) { return tool.id == id; });
+}
+
+void ToolSession::switchTool(std::string_view id)
+{
+    if (!hasTool(id)) return;
     // Later: the tool that asks is in the middle of one of its own calls.
-    editor_.events().enqueue([&editor = editor_, tool = found->id] { editor.setActiveTool(tool); });
+    editor_.events().enqueue([&editor = editor_, tool = std::string(id)] { editor.setActiveTool(tool); });
+}
+
+bool ToolSession::handOver(std::string_view id, const PointerEvent& click)
+{
+    if (!hasTool(id)) return false;
+    const std::weak_ptr<ToolSurface*> surface = self_;
+    editor_.events().enqueue([&editor = editor_, tool = std::string(id), click, surface] {
+        editor.setActiveTool(tool);
+        if (const auto present = surface.lock(); present && editor.activeTool() == tool) (*present)->clickTool(click);
+    });
+    return true;
 }
 
 }  // namespace jet::host

@@ -5,7 +5,7 @@
 #include "canvas/tool_options.hpp"
 
 #include <jet/editor.hpp>
-#include <jet/tool.hpp>
+#include <jet/tool_view.hpp>
 
 #include <QCursor>
 
@@ -22,9 +22,11 @@ public:
     virtual double surfaceScale() const = 0;  ///< pixels a scene unit
     virtual void repaintTool() = 0;
     virtual void setToolCursor(const QCursor& cursor) = 0;
+    /// A press and a release for the tool that is active now.
+    virtual void clickTool(const PointerEvent& click) = 0;
 };
 
-class ToolSession final : public ToolHost {
+class ToolSession final : public ToolHost, public ToolView {
 public:
     /// Creates the tool; tool() is null when its plugin does not give one.
     ToolSession(std::string id, Scene& scene, Editor& editor, ToolOptions& options, ToolSurface& surface);
@@ -45,6 +47,8 @@ public:
     bool keyRelease(const KeyEvent& event);
     bool cancel();
     void paint(Painter& painter) const;
+    /// Are keys with Ctrl the tool's first?
+    bool isTextEditing() const { return textEditing_; }
 
     // ToolHost, for the tool.
     Scene& scene() override { return scene_; }
@@ -57,6 +61,11 @@ public:
     const Properties& options() const override { return options_; }
     void switchTool(std::string_view id) override;
 
+    // ToolView.
+    bool hasTool(std::string_view id) const override;
+    bool handOver(std::string_view tool, const PointerEvent& click) override;
+    void setTextEditing(bool on) override { textEditing_ = on; }
+
 private:
     /// Calls the tool. What it throws becomes a message, and its open transaction is taken back.
     bool guarded(const std::function<bool(Tool&)>& call);
@@ -68,6 +77,8 @@ private:
     const Properties& options_;
     ToolSurface& surface_;
     QCursor cursor_ = Qt::ArrowCursor;
+    bool textEditing_ = false;
+    std::shared_ptr<ToolSurface*> self_;  ///< for what is done later: gone with the session
     std::unique_ptr<Tool> tool_;
 };
 

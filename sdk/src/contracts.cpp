@@ -8,6 +8,7 @@
 #include <jet/plugin.hpp>
 #include <jet/script.hpp>
 #include <jet/tool.hpp>
+#include <jet/tool_view.hpp>
 #include <jet/ui/panel.hpp>  // the interface needs no Qt
 
 namespace jet {
@@ -54,6 +55,9 @@ std::unique_ptr<EffectState> Effect::update(const EffectInput&) const { return n
 void Effect::paint(const EffectInput&, const EffectState*, PaintPurpose, Painter&) const {}
 bool Effect::wantsLiveBody() const { return false; }
 std::optional<BodyDef> Effect::buildBody(const EffectInput&, const BodyCommon&) const { return std::nullopt; }
+
+ToolView::~ToolView() = default;
+ToolView* toolView(ToolHost& host) { return dynamic_cast<ToolView*>(&host); }
 
 ItemType::~ItemType() = default;
 void ItemType::paint(const Item&, const Path&, PaintPurpose, Painter&) const {}

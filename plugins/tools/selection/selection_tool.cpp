@@ -4,7 +4,7 @@
 #include "handles.hpp"
 
 #include <jet/plugin.hpp>
-#include <jet/tool.hpp>
+#include <jet/tool_view.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -56,6 +56,7 @@ private:
     const Item* targetAt(const jet::PointerEvent& e);
     void pressItem(const Item& target, bool shift);
     void click();
+    void editInside(const Item& item, const jet::PointerEvent& click);
     void toggle(ItemId id);
 
     // The gesture under way.
@@ -246,13 +247,28 @@ void SelectionTool::move(const jet::PointerEvent& e)
     }
 }
 
+/// Goes on with the tool that edits what is in an item, where it was clicked.
+void SelectionTool::editInside(const Item& item, const jet::PointerEvent& click)
+{
+    const bool isText = item.is<jet::TextItem>();
+    const char* tool = isText ? "text-tool" : "direct-selection";
+    jet::ToolView* view = jet::toolView(host());
+    if (!view) return host().switchTool(tool);
+    if (isText ? view->handOver(tool, click) : view->hasTool(tool)) {
+        if (!isText) host().switchTool(tool);
+        return;
+    }
+    host().showStatus(isText ? "No text tool is installed: the Inspector edits the text."
+                             : "No tool that edits the points of a path is installed.");
+}
+
 /// Enters the group under the pointer and selects the member there; of a single item, goes on to edit its nodes.
 void SelectionTool::doubleClick(const jet::PointerEvent& e)
 {
     const Item* leaf = itemAt(e);
     if (!leaf) return;
     const Item& target = targetOf(*leaf);
-    if (!target.is<jet::GroupItem>()) return host().switchTool("direct-selection");
+    if (!target.is<jet::GroupItem>()) return editInside(target, e);
     entered_ = target.id();
     items().setSelection({targetOf(*leaf).id()});
     host().showStatus("In group " + target.name() + ". Esc leaves it.");

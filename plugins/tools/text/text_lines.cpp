@@ -63,24 +63,80 @@ void TextLines::setCaret(int line, qsizetype column)
     caret_ = std::min(lineStart(line) + column, lineEnd(line));
 }
 
+void TextLines::setAnchor(qsizetype at) { anchor_ = std::clamp<qsizetype>(at, 0, text_.size()); }
+
+TextLines::Part TextLines::selectedIn(int line) const
+{
+    const qsizetype from = std::min(caret_, anchor_), to = std::max(caret_, anchor_);
+    const qsizetype start = lineStart(line), end = lineEnd(line);
+    const qsizetype first = std::clamp(from, start, end), last = std::clamp(to, start, end);
+    return {text_.mid(start, first - start).toStdString(), text_.mid(first, last - first).toStdString(),
+            from <= end && to > end};
+}
+
+std::string TextLines::selected() const
+{
+    return text_.mid(std::min(caret_, anchor_), std::abs(caret_ - anchor_)).toStdString();
+}
+
+void TextLines::selectAll()
+{
+    anchor_ = 0;
+    caret_ = text_.size();
+}
+
+void TextLines::selectWord()
+{
+    QTextBoundaryFinder finder(QTextBoundaryFinder::Word, text_);
+    finder.setPosition(caret_);
+    const bool isAtStart = finder.isAtBoundary() && caret_ < text_.size() && text_[caret_] != QLatin1Char('\n');
+    if (!isAtStart) finder.toPreviousBoundary();
+    anchor_ = std::max<qsizetype>(finder.position(), 0);
+    finder.setPosition(anchor_);
+    const qsizetype end = finder.toNextBoundary();
+    caret_ = end < 0 ? text_.size() : end;
+}
+
+void TextLines::toSelectionStart()
+{
+    caret_ = std::min(caret_, anchor_);
+    dropSelection();
+}
+
+void TextLines::toSelectionEnd()
+{
+    caret_ = std::max(caret_, anchor_);
+    dropSelection();
+}
+
 void TextLines::insert(std::string_view utf8)
 {
+    removeSelection();
     const QString added = QString::fromUtf8(utf8.data(), qsizetype(utf8.size()));
     text_.insert(caret_, added);
     caret_ += added.size();
+    dropSelection();
 }
 
-void TextLines::removeBefore()
+bool TextLines::removeSelection()
 {
-    const qsizetype end = caret_;
-    toPrevious();
-    text_.remove(caret_, end - caret_);
+    if (!hasSelection()) return false;
+    const qsizetype from = std::min(caret_, anchor_);
+    text_.remove(from, std::abs(caret_ - anchor_));
+    caret_ = anchor_ = from;
+    return true;
 }
 
-void TextLines::removeAfter()
+void TextLines::removeBefore(bool word)
 {
-    const qsizetype end = boundary(text_, caret_, QTextBoundaryFinder::Grapheme, true);
-    text_.remove(caret_, end - caret_);
+    if (!hasSelection()) word ? toPreviousWord() : toPrevious();
+    removeSelection();
+}
+
+void TextLines::removeAfter(bool word)
+{
+    if (!hasSelection()) word ? toNextWord() : toNext();
+    removeSelection();
 }
 
 void TextLines::toPrevious() { caret_ = boundary(text_, caret_, QTextBoundaryFinder::Grapheme, false); }

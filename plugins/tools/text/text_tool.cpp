@@ -1,10 +1,17 @@
 // Text tool: click and type. Clicking text edits it where it is; Enter begins a line, Esc and a click elsewhere end.
-// What was typed between is one undo step; each letter of it is in the scene at once, so that no crash loses it.
+// Letters are selected by dragging, by a double click (a word), with Shift and the keys of the caret, and by Ctrl+A;
+// cut, copied and pasted as text. What was typed between is one undo step; each letter of it is in the scene at once,
+// so that no crash loses it.
 #include "text_lines.hpp"
 
 #include <jet/plugin.hpp>
-#include <jet/tool.hpp>
+#include <jet/tool_view.hpp>
+#include <jet/ui/text_frame.hpp>
 #include <jet/ui/text_metrics.hpp>
+
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QMimeData>
 
 #include <cmath>
 
@@ -12,8 +19,9 @@ namespace {
 
 using jet::writing::TextLines;
 
-constexpr double kAscent = 0.93, kLineHeight = 1.2;  // of the size, as text items are drawn
-constexpr double kNarrowest = 0.5;                   // of the size: an empty text can still be seen and clicked
+constexpr double kAscent = jet::ui::kTextAscent, kLineHeight = jet::ui::kTextLineHeight;
+constexpr std::uint8_t kSelectionAlpha = 90;
+constexpr double kLineBreak = 0.3;  // of the size: so wide is a selected end of a line
 
 class TextTool final : public jet::Tool {
 public:
@@ -29,18 +37,33 @@ public:
     void press(const jet::PointerEvent& event) override
     {
         const jet::Item* hit = textAt(event.scene);
-        if (hit && isEditing() && hit->id() == item_) return placeCaret(*hit, event.scene);
-        finish();
-        hit ? edit(*hit, event.scene) : start(event.scene);
+        const bool same = hit && isEditing() && hit->id() == item_;
+        if (!same) {
+            finish();
+            hit ? edit(*hit) : start(event.scene);
+        }
+        selecting_ = hit != nullptr;
+        if (hit) placeCaret(*hit, event.scene, same && event.modifiers.shift);
+    }
+    void drag(const jet::PointerEvent& event) override
+    {
+        if (selecting_ && isEditing() && item()) placeCaret(*item(), event.scene, true);
+    }
+    void release(const jet::PointerEvent&) override { selecting_ = false; }
+    void doubleClick(const jet::PointerEvent& event) override
+    {
+        press(event);
+        selecting_ = false;
+        if (isEditing()) lines_.selectWord();
+        host().requestRepaint();
     }
 
     bool keyPress(const jet::KeyEvent& event) override
     {
         if (!isEditing() || !follow()) return false;
-        if (event.modifiers.control && event.key != "Left" && event.key != "Right") return false;
-        if (!move(event) && !change(event)) return event.key == "Delete" || event.key == "Backspace";
-        host().requestRepaint();
-        return true;
+        const bool isUsed = move(event) || exchange(event) || change(event);
+        if (isUsed) host().requestRepaint();
+        return isUsed || event.key == "Delete" || event.key == "Backspace";
     }
 
     // Ends, and keeps what was typed: Undo is there to take it back.
@@ -57,6 +80,7 @@ public:
         jet::Path caret;
         const jet::Affine frame = uprightFrame();
         const jet::TextStyle style = styleNow();
+        paintSelection(painter, frame, style);
         const double x = caretX(style), y = lines_.caretLine() * kLineHeight * style.size;
         caret.moveTo(frame * jet::Vec2(x, y + 0.1 * style.size));
         caret.lineTo(frame * jet::Vec2(x, y + 1.15 * style.size));
@@ -104,7 +128,18 @@ private:
     {
         editing_ = true;
         newSession();
+        if (jet::ToolView* view = jet::toolView(host())) view->setTextEditing(true);
+        changed_ = host().scene().events().subscribe<jet::ItemsChanged>(&host().scene(), [this](const auto&) {
+            if (isEditing() && follow()) host().requestRepaint();
+        });
         host().showStatus("Type. Enter: a new line, Esc: done.");
+        host().requestRepaint();
+    }
+
+    void end()
+    {
+        editing_ = selecting_ = false;
+        if (jet::ToolView* view = jet::toolView(host())) view->setTextEditing(false);
         host().requestRepaint();
     }
 
@@ -116,14 +151,13 @@ private:
         begin();
     }
 
-    void edit(const jet::Item& item, const jet::Vec2& at)
+    void edit(const jet::Item& item)
     {
         item_ = item.id();
         host().items().setSelection({item_});
         shown_ = item.property("text")->as<std::string>();
         lines_ = TextLines(shown_);
         begin();
-        placeCaret(item, at);
     }
 
     /// Is what is edited still there? What Undo or the Inspector made of it is taken over.
@@ -131,14 +165,12 @@ private:
     {
         if (item_ == jet::ItemId{}) return true;
         const jet::Item* present = item();
-        if (!present || !present->is<jet::TextItem>()) {
-            editing_ = false;
-            return false;
-        }
+        if (!present || !present->is<jet::TextItem>()) return end(), false;
         if (const auto now = present->property("text")->as<std::string>(); now != shown_) {
-            const auto caret = lines_.caret();
+            const auto caret = lines_.caret(), anchor = lines_.anchor();
             lines_ = TextLines(shown_ = now);
             lines_.setCaret(caret);
+            lines_.setAnchor(anchor);
             newSession();  // what is typed from here on is a step of its own
         }
         return true;
@@ -147,7 +179,7 @@ private:
     void finish()
     {
         if (!editing_) return;
-        editing_ = false;
+        end();
         const jet::Item* present = item();
         if (present && lines_.isBlank() && !host().items().inTransaction()) {
             auto edit = host().items().begin("Delete empty text");
@@ -155,30 +187,77 @@ private:
             edit.commit(key());
         }
         host().showStatus("");
-        host().requestRepaint();
     }
 
     // --- keys
 
+    /// Keys of the caret. With Shift they select.
     bool move(const jet::KeyEvent& event)
     {
+        const bool isWord = event.modifiers.control, isSelecting = event.modifiers.shift;
+        const bool collapses = lines_.hasSelection() && !isSelecting && !isWord;
         const std::string& key = event.key;
-        if (key == "Left") return event.modifiers.control ? lines_.toPreviousWord() : lines_.toPrevious(), true;
-        if (key == "Right") return event.modifiers.control ? lines_.toNextWord() : lines_.toNext(), true;
-        if (key == "Up") return lines_.toLine(-1), true;
-        if (key == "Down") return lines_.toLine(1), true;
-        if (key == "Home") return lines_.toLineStart(), true;
-        if (key == "End") return lines_.toLineEnd(), true;
-        return false;
+        if (key == "Left") {
+            if (collapses) return lines_.toSelectionStart(), true;
+            isWord ? lines_.toPreviousWord() : lines_.toPrevious();
+        } else if (key == "Right") {
+            if (collapses) return lines_.toSelectionEnd(), true;
+            isWord ? lines_.toNextWord() : lines_.toNext();
+        } else if (key == "Up" || key == "Down") {
+            lines_.toLine(key == "Up" ? -1 : 1);
+        } else if (key == "Home") {
+            isWord ? lines_.toStart() : lines_.toLineStart();
+        } else if (key == "End") {
+            isWord ? lines_.toEnd() : lines_.toLineEnd();
+        } else {
+            return false;
+        }
+        if (!isSelecting) lines_.dropSelection();
+        return true;
+    }
+
+    /// Ctrl with A, C, X and V.
+    bool exchange(const jet::KeyEvent& event)
+    {
+        if (!event.modifiers.control || event.modifiers.shift || event.modifiers.alt) return false;
+        if (event.key == "A") return lines_.selectAll(), true;
+        const bool cuts = event.key == "X";
+        if (event.key == "C" || cuts) {
+            if (lines_.hasSelection()) QGuiApplication::clipboard()->setText(QString::fromStdString(lines_.selected()));
+            if (cuts && lines_.removeSelection()) write();
+            return true;  // also without a selection: an item would be copied, which nobody meant
+        }
+        if (event.key != "V") return false;
+        const std::string pasted = textOnClipboard();
+        if (pasted.empty()) return host().showStatus("The clipboard holds no text."), true;
+        lines_.insert(pasted);
+        write();
+        return true;
+    }
+
+    /// What a clipboard's text is in a text item: lines end with a line feed, other control characters go.
+    static std::string textOnClipboard()
+    {
+        const QMimeData* data = QGuiApplication::clipboard()->mimeData();
+        const bool isItems = data && data->hasFormat(QStringLiteral("application/x-jet-scene+xml"));
+        if (!data || isItems) return {};
+        QString text = data->text();
+        text.replace(QLatin1String("\r\n"), QLatin1String("\n")).replace(QLatin1Char('\r'), QLatin1Char('\n'));
+        text.replace(QLatin1Char('\t'), QLatin1Char(' '));
+        text.removeIf([](QChar c) { return c.category() == QChar::Other_Control && c != QLatin1Char('\n'); });
+        return text.toStdString();
     }
 
     bool change(const jet::KeyEvent& event)
     {
+        const bool isWord = event.modifiers.control;
         const std::string before = lines_.utf8();
         if (event.key == "Backspace") {
-            lines_.removeBefore();
+            lines_.removeBefore(isWord);
         } else if (event.key == "Delete") {
-            lines_.removeAfter();
+            lines_.removeAfter(isWord);
+        } else if (event.modifiers.control) {
+            return false;
         } else if (event.key == "Enter") {
             lines_.insert("\n");
         } else if (!event.text.empty() && static_cast<unsigned char>(event.text[0]) >= 0x20 && event.text[0] != 0x7f) {
@@ -201,7 +280,7 @@ private:
         auto edit = host().items().begin(item() ? "Edit text" : "Create text");
         const jet::Item& target = item() ? *item() : create(edit);
         edit.set(target, "text", shown_);
-        edit.setPath(target, framed(target));
+        edit.setPath(target, jet::ui::fittedTextFrame(target));
         item_ = target.id();
         edit.commit(key());
     }
@@ -209,7 +288,7 @@ private:
     const jet::Item& create(jet::Transaction& edit)
     {
         const jet::TextStyle style = styleNow();
-        const double width = kNarrowest * style.size;
+        const double width = jet::ui::kNarrowestText * style.size;
         jet::Vec2 corner = at_ - jet::Vec2(0, kAscent * style.size);
         if (style.align == jet::TextAlign::Center) corner.x() -= 0.5 * width;
         if (style.align == jet::TextAlign::Right) corner.x() -= width;
@@ -221,41 +300,21 @@ private:
         return made;
     }
 
-    /// The item's frame as wide and high as the text, growing to the side that its alignment leaves open.
-    jet::Path framed(const jet::Item& target) const
-    {
-        const jet::Affine frame = jet::frameOf(target.path());
-        const jet::Vec2 right = frame.linear().col(0), down = frame.linear().col(1);
-        const double oldWidth = right.norm(), height = down.norm();
-        if (!(oldWidth > 0) || !(height > 0)) return target.path();
-        const jet::TextStyle style = styleOf(target);
-        double width = kNarrowest * style.size;
-        for (int i = 0; i < lines_.lineCount(); ++i) width = std::max(width, jet::ui::textWidth(lines_.line(i), style));
-        const double high = std::max(1, lines_.lineCount()) * kLineHeight * style.size;
-        double shift = 0;
-        if (style.align == jet::TextAlign::Center) shift = 0.5 * (oldWidth - width);
-        if (style.align == jet::TextAlign::Right) shift = oldWidth - width;
-        jet::Affine now = frame;
-        now.linear().col(0) = right / oldWidth * width;
-        now.linear().col(1) = down / height * high;
-        now = jet::Affine::translation(right / oldWidth * shift) * now;
-        return jet::Path::rectangle(jet::Box({0, 0}, {1, 1})).transformed(now);
-    }
-
     // --- measures
 
-    jet::TextStyle styleFrom(const jet::Properties& values, const jet::PropertyTable& table) const
+    /// Of a text that is still to be made.
+    jet::TextStyle styleOfOptions() const
     {
+        const jet::Properties& values = host().options();
         jet::TextStyle style;
-        style.family = values.get("font", table).as<std::string>();
-        style.size = values.get("size", table).as<double>();
-        const auto align = values.get("align", table).as<std::string>();
+        style.family = values.get("font", options()).as<std::string>();
+        style.size = values.get("size", options()).as<double>();
+        const auto align = values.get("align", options()).as<std::string>();
         if (align == "center") style.align = jet::TextAlign::Center;
         if (align == "right") style.align = jet::TextAlign::Right;
         return style;
     }
-    jet::TextStyle styleOf(const jet::Item& target) const { return styleFrom(target.properties(), options()); }
-    jet::TextStyle styleNow() const { return item() ? styleOf(*item()) : styleFrom(host().options(), options()); }
+    jet::TextStyle styleNow() const { return item() ? jet::ui::textStyleOf(*item()) : styleOfOptions(); }
 
     /// The frame's corner and directions, at the letters' own size.
     jet::Affine uprightFrame() const
@@ -282,10 +341,28 @@ private:
         return lineStart(style, whole) + jet::ui::textWidth(lines_.beforeCaret(), style);
     }
 
-    /// The place between two letters that is nearest.
-    void placeCaret(const jet::Item& target, const jet::Vec2& at)
+    void paintSelection(jet::Painter& painter, const jet::Affine& frame, const jet::TextStyle& style) const
     {
-        const jet::TextStyle style = styleOf(target);
+        if (!lines_.hasSelection()) return;
+        jet::Color color = host().layerPen().color;
+        color.a = kSelectionAlpha;
+        for (int line = 0; line < lines_.lineCount(); ++line) {
+            const TextLines::Part part = lines_.selectedIn(line);
+            if (part.selected.empty() && !part.isToTheEnd) continue;
+            const double start = lineStart(style, jet::ui::textWidth(lines_.line(line), style));
+            const double left = start + jet::ui::textWidth(part.before, style);
+            double right = start + jet::ui::textWidth(part.before + part.selected, style);
+            if (part.isToTheEnd) right += kLineBreak * style.size;
+            const double top = line * kLineHeight * style.size;
+            const jet::Box box({left, top}, {right, top + kLineHeight * style.size});
+            painter.fill(jet::Path::rectangle(box).transformed(frame), color);
+        }
+    }
+
+    /// The place between two letters that is nearest.
+    void placeCaret(const jet::Item& target, const jet::Vec2& at, bool selects)
+    {
+        const jet::TextStyle style = jet::ui::textStyleOf(target);
         const jet::Vec2 inside = uprightFrame().inverse() * at;
         lines_.setCaret(static_cast<int>(std::floor(inside.y() / (kLineHeight * style.size))), 0);
         const int line = lines_.caretLine();
@@ -296,15 +373,17 @@ private:
             if (const double d = std::abs(inside.x() - caretX(style)); d < distance) distance = d, best = last;
         }
         lines_.setCaret(best);
+        if (!selects) lines_.dropSelection();
         host().requestRepaint();
     }
 
-    bool editing_ = false;
+    bool editing_ = false, selecting_ = false;
     jet::ItemId item_;  // none: nothing was typed yet
     jet::Vec2 at_;      // where a new text's baseline starts
     TextLines lines_;
     std::string shown_;  // what the item has, as far as this tool knows
     int session_ = 0;
+    jet::Subscription changed_;  // while editing: what the Inspector, a script or Undo makes of the text is shown
 };
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <jet/ui/text_metrics.hpp>
 
+#include <QClipboard>
+#include <QGuiApplication>
+#include <QMimeData>
+
 namespace {
 
 using jet::Box;
@@ -164,6 +168,104 @@ TEST_F(TextToolTest, TurnedTextIsEditedInItsFrame)
     type("def");
     EXPECT_EQ(textOf(*texts().at(0)), "abcdef");
     EXPECT_TRUE(texts().at(0)->path().segment(0).point.isApprox(corner)) << "it grows along its own line";
+}
+
+TEST_F(TextToolTest, ShiftSelectsAndTypingReplacesWhatIsSelected)
+{
+    tool("text-tool").click({100, 100});
+    type("one two");
+    press("Left", {.shift = true, .control = true});
+    type("2");
+    EXPECT_EQ(textOf(*texts().at(0)), "one 2");
+    press("Home", {.shift = true});
+    press("Backspace");
+    EXPECT_EQ(textOf(*texts().at(0)), "");
+    type("ab");
+    press("Enter");
+    type("cd");
+    press("Left");
+    press("Up", {.shift = true});
+    press("Delete");
+    EXPECT_EQ(textOf(*texts().at(0)), "ad") << "from between c and d up to between a and b";
+    EXPECT_EQ(undoSteps(), 1u);
+}
+
+TEST_F(TextToolTest, ArrowsLeaveTheSelectionAtItsEnds)
+{
+    tool("text-tool").click({100, 100});
+    type("abcd");
+    press("A", {.control = true});
+    press("Left");
+    type("<");
+    press("A", {.control = true});
+    press("Right");
+    type(">");
+    EXPECT_EQ(textOf(*texts().at(0)), "<abcd>");
+    press("Backspace", {.control = true});
+    press("Home", {.control = true});
+    press("Delete", {.control = true});
+    press("Delete", {.control = true});
+    EXPECT_EQ(textOf(*texts().at(0)), "");
+}
+
+TEST_F(TextToolTest, TextIsCutCopiedAndPasted)
+{
+    tool("text-tool").click({100, 100});
+    type("abc");
+    press("Left", {.shift = true});
+    press("C", {.control = true});
+    press("Home");
+    press("V", {.control = true});
+    EXPECT_EQ(textOf(*texts().at(0)), "cabc");
+    press("A", {.control = true});
+    press("X", {.control = true});
+    EXPECT_EQ(textOf(*texts().at(0)), "");
+    EXPECT_EQ(QGuiApplication::clipboard()->text().toStdString(), "cabc");
+    QGuiApplication::clipboard()->setText("two\r\nlines\tand\x01 more");
+    press("V", {.control = true});
+    EXPECT_EQ(textOf(*texts().at(0)), "two\nlines and more");
+    auto* items = new QMimeData;
+    items->setData("application/x-jet-scene+xml", "<scene/>");
+    items->setText("<scene/>");
+    QGuiApplication::clipboard()->setMimeData(items);
+    press("V", {.control = true});
+    EXPECT_EQ(textOf(*texts().at(0)), "two\nlines and more") << "items are no text";
+    EXPECT_EQ(undoSteps(), 1u);
+    QGuiApplication::clipboard()->clear();
+}
+
+TEST_F(TextToolTest, DraggingSelectsLettersAndADoubleClickAWord)
+{
+    jet::TextStyle style;
+    style.size = 24;
+    const auto at = [&](std::string_view before) { return Vec2(100 + jet::ui::textWidth(before, style) + 1, 95); };
+    tool("text-tool").click({100, 100});
+    type("some few words");
+    press("Escape");
+    tool("text-tool").drag(at("some "), at("some few"));
+    type("many");
+    EXPECT_EQ(textOf(*texts().at(0)), "some many words");
+    tool("text-tool").doubleClick(at("so"));
+    press("X", {.control = true});
+    EXPECT_EQ(textOf(*texts().at(0)), " many words");
+    tool("text-tool").click(at(" ma"));
+    tool("text-tool").hold({.shift = true}).click(at(" many wo")).hold({});
+    press("Delete");
+    EXPECT_EQ(textOf(*texts().at(0)), " mards");
+}
+
+TEST_F(TextToolTest, WhatIsSelectedIsMarkedLineByLine)
+{
+    const auto marks = [&] { return tool("text-tool").painted().fills().size(); };
+    tool("text-tool").click({100, 100});
+    type("ab");
+    press("Enter");
+    type("cd");
+    EXPECT_EQ(marks(), 0u);
+    press("A", {.control = true});
+    EXPECT_EQ(marks(), 2u);
+    press("End");
+    EXPECT_EQ(marks(), 0u);
 }
 
 TEST_F(TextToolTest, KeysWithoutAClickAreNotTaken)
