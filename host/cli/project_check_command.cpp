@@ -7,6 +7,7 @@
 #include "host/projects/project_check.hpp"
 
 #include <jet/project_lock.hpp>
+#include <jet/project_tree.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -68,6 +69,20 @@ void tell(Session& session, const Finding& finding)
     }
 }
 
+/// What the reader remarked, but for what a finding tells already.
+std::vector<FormatNote> notesOf(const CheckReport& report)
+{
+    if (!report.project) return {};
+    std::vector<FormatNote> notes = report.project->notes();
+    std::erase_if(notes, [&](const FormatNote& note) {
+        return std::ranges::any_of(report.findings, [&](const Finding& finding) {
+            return finding.where.file == note.where.file && finding.where.line == note.where.line &&
+                   note.message.starts_with(finding.problem);
+        });
+    });
+    return notes;
+}
+
 Json jsonOf(const Session& session, const CheckReport& report, std::size_t unsaved,
             const std::vector<PluginDifference>& differences)
 {
@@ -80,9 +95,7 @@ Json jsonOf(const Session& session, const CheckReport& report, std::size_t unsav
                            {"reason", one.reason},
                            {"remedy", one.remedy}});
     Json notes = Json::array(), problems = Json::array(), errors = Json::array(), written = Json::array();
-    if (report.project)
-        for (const FormatNote& note : report.project->notes())
-            notes.push_back(placed(session, note.message, note.where));
+    for (const FormatNote& note : notesOf(report)) notes.push_back(placed(session, note.message, note.where));
     for (const Finding& finding : report.findings) {
         Json problem = placed(session, finding.problem, finding.where);
         problem["weight"] = isError(finding) ? "error" : "warning";
@@ -92,8 +105,19 @@ Json jsonOf(const Session& session, const CheckReport& report, std::size_t unsav
         if (isError(finding) && !finding.repaired) errors.push_back(placed(session, finding.problem, finding.where));
     }
     for (const fs::path& file : report.written) written.push_back(file.string());
-    return {{"ok", report.isFine()}, {"notes", notes},     {"unsavedChanges", unsaved}, {"errors", errors},
-            {"problems", problems},  {"written", written}, {"plugins", plugins}};
+    const RemovedFiles removed = removedFiles(report.file.parent_path());
+    return {{"ok", report.isFine()},     {"notes", notes},
+            {"unsavedChanges", unsaved}, {"errors", errors},
+            {"problems", problems},      {"written", written},
+            {"plugins", plugins},        {"removedFiles", {{"count", removed.files.size()}, {"bytes", removed.bytes}}}};
+}
+
+void tellRemoved(const CheckReport& report)
+{
+    const RemovedFiles removed = removedFiles(report.file.parent_path());
+    if (removed.files.empty()) return;
+    std::printf("%zu removed files, %.1f kB, are kept in .jet-removed until somebody empties it\n",
+                removed.files.size(), static_cast<double>(removed.bytes) / 1e3);
 }
 
 void printSummary(const Session& session, const CheckReport& report)
@@ -106,7 +130,7 @@ void printSummary(const Session& session, const CheckReport& report)
         std::size_t items = 0;
         for (const Scene* scene : report.project->scenes()) items += scene->items().itemCount();
         std::printf("%s: fine: %zu scenes, %zu items, %zu warnings\n", file.c_str(), report.project->scenes().size(),
-                    items, report.project->notes().size() + static_cast<std::size_t>(warnings));
+                    items, notesOf(report).size() + static_cast<std::size_t>(warnings));
         return;
     }
     const auto left =
@@ -145,8 +169,7 @@ try {
     const auto report = checkProjectFiles(project, session.events(), session.plugins(), {o.repair, schemaFolder()});
     if (!report) return fail(session, report.error());
     for (const Finding& finding : report->findings) tell(session, finding);
-    if (report->project)
-        for (const FormatNote& note : report->project->notes()) session.warning(note.message, note.where);
+    for (const FormatNote& note : notesOf(*report)) session.warning(note.message, note.where);
     std::vector<PluginDifference> differences;
     if (report->project) differences = session.comparePlugins(*report->project);
     const std::size_t unsaved = tellUnsavedChanges(session, report->file);
@@ -154,6 +177,7 @@ try {
         print(jsonOf(session, *report, unsaved, differences));
     } else {
         printSummary(session, *report);
+        tellRemoved(*report);
     }
     return report->isFine() ? kOk : kFailed;
 } catch (const Failure& failure) {

@@ -1,5 +1,7 @@
 #include "project_access.hpp"
 
+#include <jet/start_scene.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -27,7 +29,7 @@ Scene& chooseScene(Project& project, const std::string& wanted)
     const auto scenes = project.scenes();
     const Location where{project.file().string(), 0, 0};
     if (scenes.empty()) throw Failure(Error("the project has no scene; add one in the editor", where));
-    if (wanted.empty()) return *scenes.front();
+    if (wanted.empty()) return *startScene(project);
     if (Scene* named = project.scene(wanted)) return *named;
     const bool number = wanted.find_first_not_of("0123456789") == std::string::npos && wanted.size() < 10;
     if (number && std::stoul(wanted) < scenes.size()) return *scenes[std::stoul(wanted)];
@@ -78,6 +80,7 @@ int projectInfo(Session& session, const fs::path& path)
               {"hash", hashText(project->hash())},
               {"scenes", Json::array()},
               {"plugins", Json::array()}};
+    if (const Scene* start = startScene(*project)) json["start"] = start->name();
     for (const Scene* scene : project->scenes()) {
         std::map<std::string, int> types;
         scene->root().walk([&](const Item& item) {
@@ -100,7 +103,8 @@ int projectInfo(Session& session, const fs::path& path)
     std::printf("%s (%s)\n  hash %s\n", project->name().c_str(), session.named(project->file().string()).c_str(),
                 hashText(project->hash()).c_str());
     for (const Json& scene : json["scenes"]) {
-        std::printf("  scene '%s': %d items\n", scene["name"].get<std::string>().c_str(), scene["items"].get<int>());
+        std::printf("  scene '%s': %d items%s\n", scene["name"].get<std::string>().c_str(), scene["items"].get<int>(),
+                    scene["name"] == json["start"] ? ", plays first" : "");
         for (const auto& [type, count] : scene["types"].items())
             std::printf("    %6d %s\n", count.get<int>(), type.c_str());
     }

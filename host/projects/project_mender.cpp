@@ -71,6 +71,7 @@ Result<void> ProjectMender::run()
         const std::string before = project_->written();
         mendTree(root);
         addUnlisted(root);
+        mendStart(root);
         if (project_->written() != before) mended_[name_] = project_->written();
         for (const std::string& scene : scenes_) mendScene(scene);
     }
@@ -183,6 +184,15 @@ void ProjectMender::addUnlisted(pugi::xml_node root)
         entry.append_attribute("file") = file.c_str();
         sceneNames_.insert(name), sceneFiles_.insert(file);
     }
+}
+
+void ProjectMender::mendStart(pugi::xml_node root)
+{
+    const pugi::xml_attribute start = root.attribute("start");
+    if (!start || sceneNames_.contains(start.value())) return;
+    tell(Weight::Warning, project_->where(root), "there is no scene '" + std::string(start.value()) + "' to start with",
+         "the first scene starts until another is chosen");
+    root.remove_attribute(start);
 }
 
 // --- scenes

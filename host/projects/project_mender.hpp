@@ -40,6 +40,7 @@ private:
     void mendEntry(pugi::xml_node entry);
     void mendScene(const std::string& name);
     void addUnlisted(pugi::xml_node root);
+    void mendStart(pugi::xml_node root);
     void findLeftovers();
     void tryToOpen();
     bool lacksProvides() const;

@@ -6,10 +6,9 @@
 
 #include <jet/arrange.hpp>
 #include <jet/effect.hpp>
-#include <jet/ui/history_focus.hpp>
 
-#include <QApplication>
-#include <QMenuBar>
+#include <QCoreApplication>
+#include <QMenu>
 
 namespace jet::host {
 
@@ -23,9 +22,8 @@ void offset(Transaction& edit, const Item& item) { edit.transform(item, Affine::
 }  // namespace
 
 EditController::EditController(Editor& editor, Documents& documents, QObject* parent)
-    : QObject(parent), editor_(editor), documents_(documents)
+    : QObject(parent), editor_(editor), documents_(documents), focus_([this] { emit historyChanged(); })
 {
-    connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) { followFocus(now); });
 }
 
 std::vector<ActionSpec> EditController::actions()
@@ -103,16 +101,9 @@ Scene& EditController::readyScene() const
     return *scene();
 }
 
-void EditController::followFocus(QWidget* now)
-{
-    if (!now || qobject_cast<QMenu*>(now) || qobject_cast<QMenuBar*>(now)) return;
-    focus_ = now;
-    emit historyChanged();
-}
-
 EditController::History EditController::history() const
 {
-    if (const auto focus = ui::historyFocus(focus_)) {
+    if (const auto focus = focus_.now()) {
         if (!focus->scene) return {&editor_.projectTree(), nullptr};
         const auto all = editor_.project().scenes();
         if (std::find(all.begin(), all.end(), focus->scene) != all.end()) return {nullptr, &focus->scene->undoRedo()};

@@ -5,8 +5,7 @@
 #include "window/documents.hpp"
 
 #include <jet/project_tree.hpp>
-
-#include <QPointer>
+#include <jet/ui/history_focus.hpp>
 
 namespace jet::host {
 
@@ -42,7 +41,6 @@ private:
         UndoRedoCenter* scene = nullptr;
     };
     History history() const;
-    void followFocus(QWidget* now);
     void undo();
     void redo();
     void copy();
@@ -57,7 +55,7 @@ private:
 
     Editor& editor_;
     Documents& documents_;
-    QPointer<QWidget> focus_;  // the last one that is no menu: these take it while they are open
+    ui::HistoryFocusWatch focus_;
 };
 
 }  // namespace jet::host

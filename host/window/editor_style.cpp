@@ -56,13 +56,18 @@ QIcon EditorStyle::standardIcon(StandardPixmap icon, const QStyleOption* option,
     switch (icon) {
     case SP_TitleBarCloseButton:
     case SP_DockWidgetCloseButton: return ui::icon("close");
-    case SP_TitleBarNormalButton: return ui::icon("duplicate");  // a window above another: float or dock
+    case SP_TitleBarNormalButton:
+        return ui::icon("duplicate");  // a window above another: float or dock
+    // Fusion's are dark arrows, which nobody sees on dark ground.
+    case SP_ToolBarHorizontalExtensionButton: return ui::icon("more-right");
+    case SP_ToolBarVerticalExtensionButton: return ui::icon("more-below");
     default: return QProxyStyle::standardIcon(icon, option, widget);
     }
 }
 
 int EditorStyle::pixelMetric(PixelMetric metric, const QStyleOption* option, const QWidget* widget) const
 {
+    if (metric == PM_ToolBarExtensionExtent) return 18;
     return metric == PM_DockWidgetTitleBarButtonMargin ? 4 : QProxyStyle::pixelMetric(metric, option, widget);
 }
 

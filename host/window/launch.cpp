@@ -3,6 +3,7 @@
 #include "window/crash_dialog.hpp"
 #include "window/guarded_application.hpp"
 #include "window/main_window.hpp"
+#include "window/scene_clipboard.hpp"
 #include "window/theme.hpp"
 
 #include <QApplication>
@@ -119,6 +120,7 @@ int jet_run_window(int argc, char** argv, const jet::host::WindowLaunch& given)
     if (launch.project.empty() && !answer->asked)
         QTimer::singleShot(0, &window, [&window] { window.projects().offerRecovery(); });
     const int code = QApplication::exec();
+    keepClipboard();
     application.setMessageHandler({});
     return code;
 }

@@ -2,6 +2,8 @@
 
 #include "host/projects/project_archive.hpp"
 
+#include <jet/start_scene.hpp>
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileDialog>
@@ -58,8 +60,7 @@ void ProjectController::install(std::unique_ptr<Project> project)
     takeLock(project_->file());
     startJournal();  // before the panels know the project: the journal hears of a change first
     editor_.events().post(&editor_, ProjectChanged{});
-    const std::vector<Scene*> scenes = project_->scenes();
-    if (!scenes.empty()) documents_.openScene(*scenes.front());
+    if (Scene* start = startScene(*project_)) documents_.openScene(*start);
 }
 
 void ProjectController::startJournal()

@@ -8,6 +8,8 @@
 #include <QSettings>
 #include <QToolBar>
 
+#include <span>
+
 namespace jet::host {
 
 namespace {
@@ -120,7 +122,11 @@ void ToolController::escape()
 void ToolController::showOptions()
 {
     if (!optionsBar_) return;
-    optionsBar_->clear();
+    for (QAction* action : optionsBar_->actions()) {
+        if (QWidget* widget = optionsBar_->widgetForAction(action)) widget->hide();
+        optionsBar_->removeAction(action);
+        action->deleteLater();  // with its widget, which may be the one that called
+    }
     const SceneView* view = documents_.currentView();
     const Tool* tool = view && view->tool() ? view->tool()->tool() : nullptr;
     const auto contribution =
@@ -132,13 +138,18 @@ void ToolController::showOptions()
     if (!tool) return;
     const PropertyTable& table = tool->options();
     if (table.specs().empty()) return;
-    auto* form = new ui::PropertyForm(table, ui::PropertyForm::Layout::Line, optionsBar_);
-    form->show([&](const PropertySpec& spec) { return options_.of(active_).get(spec.id, table); });
-    form->setHandler([this](const PropertySpec& spec, const Value& value, ui::EditPhase) {
-        options_.set(active_, spec.id, value);
-        if (SceneView* front = documents_.currentView()) front->update();
-    });
-    optionsBar_->addWidget(form);
+    // A form for each: what does not fit into the bar goes below its overflow button one by one.
+    for (const PropertySpec& one : table.specs()) {
+        auto* form = new ui::PropertyForm(std::span(&one, 1), ui::PropertyForm::Layout::Line, optionsBar_);
+        form->setContentsMargins(0, 0, 8, 0);
+        form->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+        form->show([&](const PropertySpec& spec) { return options_.of(active_).get(spec.id, table); });
+        form->setHandler([this](const PropertySpec& spec, const Value& value, ui::EditPhase) {
+            options_.set(active_, spec.id, value);
+            if (SceneView* front = documents_.currentView()) front->update();
+        });
+        optionsBar_->addWidget(form);
+    }
 }
 
 void ToolController::saveOptions(QSettings& settings) const

@@ -1,4 +1,5 @@
 #include "journal_state.hpp"
+#include "project_files.hpp"
 #include "system_error.hpp"
 
 #include <jet/editor.hpp>
@@ -147,7 +148,7 @@ void Journal::Private::trackAll()
 StructureRecord Journal::Private::structure()
 {
     StructureRecord record;
-    record.name = project.name();
+    record.name = project.name(), record.start = startChoice(project).name();
     const auto fill = [&](const auto& self, const Filter& filter, StructureRecord::FilterEntry& into) -> void {
         into.name = filter.name;
         for (const auto& scene : filter.scenes)

@@ -168,6 +168,7 @@ std::string StructureRecord::encode() const
     ByteWriter out;
     out.bits(static_cast<std::uint64_t>(time)), out.text(name);
     encodeFilter(out, root);
+    out.text(start);
     return out.take();
 }
 
@@ -177,6 +178,7 @@ StructureRecord StructureRecord::decode(std::string_view bytes)
     StructureRecord structure;
     structure.time = static_cast<std::int64_t>(in.bits()), structure.name = in.storable();
     structure.root = decodeFilter(in, 0);
+    if (!in.atEnd()) structure.start = in.storable();
     return structure;
 }
 

@@ -75,6 +75,7 @@ struct StructureRecord {
     std::int64_t time = 0;
     std::string name;
     FilterEntry root;
+    std::string start;  ///< name of the start scene; empty: none chosen. Last, and not in older journals
     std::string encode() const;
     static StructureRecord decode(std::string_view bytes);
 };

@@ -183,6 +183,7 @@ public:
         buildFilter(contents_.structure.root, root);
         keepForeign(root);
         project.root_ = std::move(root);
+        startChoice(project) = startCalled(project, contents_.structure.start);
         for (Scene* scene : project.scenes()) scene->setAssetFolder(project.folder().string());
         if (contents_.torn)
             note("The last record of the journal is incomplete: the change that was under way is not in it.");

@@ -4,6 +4,7 @@
 
 #include <jet/catalog.hpp>
 #include <jet/project.hpp>
+#include <jet/start_scene.hpp>
 #include <jet/symbols.hpp>
 
 #include <algorithm>
@@ -77,6 +78,7 @@ void Project::removeScene(const Scene& scene)
         sceneFiles_.erase(file);
     }
     files_->unsaved.erase(&scene);
+    if (files_->start.scene == &scene) files_->start = {};
     eraseScene(root_, scene);
 }
 
@@ -90,7 +92,9 @@ std::string Project::freeSceneName() const
 
 std::string Project::structure() const
 {
-    std::string out = "<jet-project version=\"1\"" + xmlAttribute("name", name_) + ">\n";
+    const std::string start = files_->start.name();
+    std::string out = "<jet-project version=\"1\"" + xmlAttribute("name", name_) +
+                      (start.empty() ? "" : xmlAttribute("start", start)) + ">\n";
     const auto append = [&](const auto& self, const Filter& filter, std::size_t depth) -> void {
         const std::string indent(depth * 2, ' ');
         out += indent + "<filter" + xmlAttribute("name", filter.name) + ">\n";
@@ -177,7 +181,24 @@ std::uint64_t Project::hash() const
         for (const auto& child : filter.filters) self(self, *child);
     };
     add(add, root_);
+    if (const std::string start = files_->start.name(); !start.empty()) h.add(std::string_view(start));
     return h.value();
+}
+
+Scene* startScene(const Project& project)
+{
+    const StartChoice& choice = startChoice(project);
+    const std::vector<Scene*> all = project.scenes();
+    const auto chosen = std::ranges::find_if(
+        all, [&](const Scene* scene) { return scene == choice.scene || scene->name() == choice.missing; });
+    if (chosen != all.end()) return *chosen;
+    return all.empty() ? nullptr : all.front();
+}
+
+StartChoice startCalled(const Project& project, const std::string& name)
+{
+    const Scene* scene = name.empty() ? nullptr : project.scene(name);
+    return scene ? StartChoice{scene, {}} : StartChoice{nullptr, name};
 }
 
 }  // namespace jet

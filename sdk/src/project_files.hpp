@@ -45,7 +45,20 @@ public:
     virtual void saved() = 0;
 };
 
+/// Which scene was chosen to start with. None: the first one, whichever that is.
+struct StartChoice {
+    const Scene* scene = nullptr;  ///< in the project
+    std::string missing;           ///< else, the name the file gives, which no scene has: kept as it is
+    bool operator==(const StartChoice&) const = default;
+    /// The attribute of project.jet; empty: none.
+    std::string name() const { return scene ? scene->name() : missing; }
+};
+StartChoice& startChoice(const Project& project);
+/// By the name of an attribute or a journal; empty: none.
+StartChoice startCalled(const Project& project, const std::string& name);
+
 struct Project::Files {
+    StartChoice start;
     std::map<std::string, FileState> known;  ///< by path relative to the project's folder
     std::set<const Scene*> unsaved;  ///< differ from their files although their history says nothing: recovered ones
     bool structureUnsaved = false;   ///< the same of project.jet

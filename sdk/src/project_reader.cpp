@@ -27,7 +27,7 @@ public:
                          "a project file starts with <jet-project>, this one with <" + std::string(root.name()) + ">");
         const int version = migrate(source_);
         if (version != kFormatVersion) noteMigration(project_.file_.filename().string(), version);
-        source_.onlyAttributes(root, {"version", "name"});
+        source_.onlyAttributes(root, {"version", "name", "start"});
         project_.name_ = source_.required(root, "name");
         bool found = false;
         for (const pugi::xml_node child : root.children()) {
@@ -43,7 +43,10 @@ public:
             }
         }
         if (!found) source_.fail(root, "the project has no <filter>; add <filter name=\"Filter0\"> with its scenes");
+        readStart(root);
     }
+
+    static StartChoice& startOf(const Project& project) { return project.files_->start; }
 
     /// Tells the user, once, when files are of an older version of the format.
     void tellMigration()
@@ -57,6 +60,15 @@ public:
     }
 
 private:
+    void readStart(const pugi::xml_node& root)
+    {
+        startOf(project_) = startCalled(project_, root.attribute("start").value());
+        if (const std::string& missing = startOf(project_).missing; !missing.empty())
+            project_.notes_.push_back(
+                {"there is no scene '" + missing + "' to start with; the first one starts until another is chosen",
+                 source_.where(root)});
+    }
+
     void noteMigration(const std::string& file, int version)
     {
         auto& files = *project_.files_;
@@ -160,6 +172,8 @@ private:
     std::set<std::string> names_;
     std::set<fs::path> files_;
 };
+
+StartChoice& startChoice(const Project& project) { return ProjectReader::startOf(project); }
 
 Result<fs::path> findProjectFile(const fs::path& path)
 {

@@ -1,3 +1,4 @@
+#include "project_files.hpp"
 #include "project_tree_files.hpp"
 #include "scene_state.hpp"
 #include "utf8.hpp"
@@ -28,10 +29,14 @@ struct Presence {
     Place place;
     bool added;  // by redo; else by undo
     std::unique_ptr<T> detached;
+    StartChoice start = {};  // as it was before it was taken out
 };
 template <class T>
 struct Movement {
     Place from, to;  // `to` counted without what moves
+};
+struct Starting {
+    StartChoice before, after;
 };
 struct Renaming {
     Scene* scene;    // else
@@ -40,7 +45,7 @@ struct Renaming {
 };
 
 using TreeChange =
-    std::variant<Presence<Scene>, Presence<Filter>, Movement<Scene>, Movement<Filter>, Renaming, FileMove>;
+    std::variant<Presence<Scene>, Presence<Filter>, Movement<Scene>, Movement<Filter>, Starting, Renaming, FileMove>;
 
 struct TreeStep {
     std::string label;
@@ -155,8 +160,10 @@ struct ProjectTree::Private {
     {
         if (change.added == forward) {
             put(change.place, std::move(change.detached));
+            if (change.start.scene) startChoice(project) = change.start;
         } else {
             change.place = placeOf(*change.what);
+            change.start = startChoice(project);
             change.detached = take<T>(change.place);
             disown(*change.detached);
         }
@@ -175,6 +182,7 @@ struct ProjectTree::Private {
     {
         put(forward ? change.to : change.from, take<T>(forward ? change.from : change.to));
     }
+    void apply(const Starting& change, bool forward) { startChoice(project) = forward ? change.after : change.before; }
     void apply(Renaming& change, bool forward)
     {
         const std::string& name = forward ? change.after : change.before;
@@ -352,8 +360,9 @@ void ProjectTree::move(Filter& filter, Filter& parent, std::size_t index)
 
 void ProjectTree::makeStart(Scene& scene)
 {
-    const auto change = movement(d_->placeOf(scene), d_->project.root(), 0, scene);
-    if (!isStill(change.from, change.to)) d_->make("Start with scene " + scene.name(), change);
+    d_->placeOf(scene);
+    const StartChoice now = startChoice(d_->project), then{&scene, {}};
+    if (!(now == then)) d_->make("Start with scene " + scene.name(), Starting{now, then});
 }
 
 // --- files
@@ -377,6 +386,25 @@ void ProjectTree::renameFile(const std::string& path, const std::string& name)
 {
     FileMove move = prepareRename(d_->project, path, name);
     if (move.from != move.to) d_->make("Rename file " + path, std::move(move));
+}
+
+RemovedFiles ProjectTree::disposableFiles() const
+{
+    std::set<fs::path> needed;
+    const auto note = [&](const FileMove& move) { needed.insert(move.from), needed.insert(move.to); };
+    for (const TreeStep& step : d_->steps)
+        if (const auto* move = std::get_if<FileMove>(&step.change)) note(*move);
+    for (const FileMove& move : d_->unsavedFiles) note(move);
+    if (d_->project.file().empty()) return {};
+    return removedFiles(d_->project.folder(), needed);
+}
+
+std::size_t ProjectTree::disposeFiles()
+{
+    std::size_t count = 0;
+    std::error_code ignored;
+    for (const fs::path& file : disposableFiles().files) count += fs::remove(file, ignored) ? 1 : 0;
+    return count;
 }
 
 void ProjectTree::markSaved() { d_->unsavedFiles.clear(); }

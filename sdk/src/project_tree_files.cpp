@@ -100,6 +100,24 @@ void moveFile(const FileMove& move, Project& project)
     }
 }
 
+RemovedFiles removedFiles(const fs::path& projectFolder) { return removedFiles(projectFolder, {}); }
+
+RemovedFiles removedFiles(const fs::path& projectFolder, const std::set<fs::path>& but)
+{
+    RemovedFiles found;
+    std::error_code problem;
+    const fs::path folder = fs::absolute(projectFolder.empty() ? fs::path(".") : projectFolder).lexically_normal();
+    for (fs::directory_iterator at(folder / kRemoved, problem), end; !problem && at != end; at.increment(problem)) {
+        std::error_code none;
+        if (at->path().filename() == ".gitignore" || !at->is_regular_file(none) || but.contains(at->path())) continue;
+        const std::uintmax_t size = at->file_size(none);
+        found.files.push_back(at->path());
+        found.bytes += none ? 0 : size;
+    }
+    std::ranges::sort(found.files);
+    return found;
+}
+
 bool isShelf(const fs::path& file) { return file.parent_path().filename() == kRemoved; }
 
 FileMove prepareNewFile(const Project& project, const fs::path& source)

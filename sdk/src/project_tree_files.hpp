@@ -1,9 +1,10 @@
 // A project's files as a ProjectTree changes them: moved, and moved back.
 #pragma once
 
-#include <jet/project.hpp>
+#include <jet/project_tree.hpp>
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace jet {
@@ -21,6 +22,8 @@ void moveFile(const FileMove& move, Project& project);
 
 /// Is it where removed files lie?
 bool isShelf(const std::filesystem::path& file);
+/// All in there, but those.
+RemovedFiles removedFiles(const std::filesystem::path& projectFolder, const std::set<std::filesystem::path>& but);
 /// A copy of the file lies in .jet-removed then, from where the move brings it to assets/. Without `from`: a file of
 /// that content is in the project already, at newReference.
 FileMove prepareNewFile(const Project& project, const std::filesystem::path& source);

@@ -38,11 +38,13 @@
 #include <jet/settings.hpp>
 #include <jet/simulation.hpp>
 #include <jet/tool.hpp>
+#include <jet/tool_view.hpp>
 #include <jet/ui/history_focus.hpp>
 #include <jet/ui/number_expression.hpp>
 #include <jet/ui/panel.hpp>
 #include <jet/ui/pictures.hpp>
 #include <jet/ui/qt_painter.hpp>
+#include <jet/ui/scene_drop.hpp>
 #include <jet/unmanaged_plugins.hpp>
 #include <jet/value.hpp>
 
@@ -209,6 +211,7 @@ TYPE(jet::Backup)
 TYPE(jet::Project)
 TYPE(jet::ProjectLock)
 TYPE(jet::ProjectTreeChanged)
+TYPE(jet::RemovedFiles)
 TYPE(jet::ProjectTree)
 TYPE(jet::PropertySpec)
 TYPE(jet::PropertyTable)
@@ -238,11 +241,14 @@ TYPE(jet::OutputPrinted)
 TYPE(jet::SimulationCenter)
 TYPE(jet::ToolHost)
 TYPE(jet::Tool)
+TYPE(jet::ToolView)
 TYPE(jet::ui::HistoryFocus)
+TYPE(jet::ui::HistoryFocusWatch)
 TYPE(jet::ui::NumberContext)
 TYPE(jet::Panel)
 TYPE(jet::ui::PictureFit)
 TYPE(jet::ui::QtPainter)
+TYPE(jet::ui::DroppedOnScene)
 TYPE(jet::UnmanagedPlugins)
 TYPE(jet::ItemId)
 TYPE(jet::Color)

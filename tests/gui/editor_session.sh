@@ -9,26 +9,11 @@ jet=$1
 out=$2
 example=${3:-}
 
-for program in Xvfb xdotool openbox import; do
-    command -v "$program" >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
-done
-if [ "${JET_SESSION_DISPLAY:-}" = "" ]; then
-    JET_SESSION_DISPLAY=1 exec "$(dirname "$0")/../../scripts/with-display" --manager openbox "$0" "$@"
-fi
-
-rm -rf "$out"
-mkdir -p "$out/settings"
-export XDG_CONFIG_HOME=$out/settings XDG_STATE_HOME=$out/state QT_QPA_PLATFORM=xcb
+. "$(dirname "$0")/session_tools.sh"
 project=$out/project
 play="216 40"  # buttons of the tool bar, pixels of the window
 stop="314 40"
-failures=0
 editor=0
-
-fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-check() { local what=$1; shift; if "$@"; then echo "ok: $what"; else fail "$what"; fi; }
-shot() { import -window root "$out/$1.png"; }
-settle() { sleep "${1:-0.4}"; }
 
 start() {
     "$jet" "$@" >"$out/editor.log" 2>&1 &
@@ -51,15 +36,6 @@ stop() {
     local code=$?
     [ $code -eq 0 ] || fail "the editor ended with $code: $(tail -3 "$out/editor.log")"
 }
-drag() {  # x0 y0 x1 y1 [button]
-    local button=${5:-1}
-    xdotool mousemove "$1" "$2"; settle 0.1
-    xdotool mousedown "$button"; settle 0.1
-    xdotool mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)); settle 0.1
-    xdotool mousemove "$3" "$4"; settle 0.1
-    xdotool mouseup "$button"; settle
-}
-key() { xdotool key --clearmodifiers "$@"; settle; }
 click() { xdotool mousemove "$1" "$2"; settle 0.2; xdotool click 1; settle 0.2; }
 # The scene's part of two screenshots, pixel by pixel; true without ImageMagick.
 pixels() { convert "$out/$1.png" -crop 800x400+100+150 rgba:- 2>/dev/null | sha256sum; }
@@ -130,5 +106,4 @@ if [ -n "$example" ] && [ -e "$example/project.jet" ]; then
     stop
 fi
 
-[ $failures -eq 0 ] && echo "all well" || echo "$failures failure(s); screenshots in $out"
-exit $((failures > 0))
+finish

@@ -162,6 +162,67 @@ TEST_F(InspectorTest, ItemsOfSeveralTypesAreEditedInWhatTheyHaveInCommon)
     EXPECT_EQ(editor("ks"), nullptr) << "force/unit is not torque/rad";
 }
 
+TEST_F(InspectorTest, ThePartsOfVectorsThatDifferAreEditedOneByOne)
+{
+    std::vector<ItemId> bodies;
+    {
+        auto edit = scene().items().begin("Bodies");
+        for (const Vec2& velocity : {Vec2(1, 2), Vec2(1, 3)}) {
+            const Item& body = edit.add<BodyItem>(scene().root());
+            edit.set(body, "velocity", velocity);
+            bodies.push_back(body.id());
+        }
+        edit.setSelection(bodies);
+        edit.commit();
+    }
+    const auto velocityOf = [&](std::size_t i) {
+        return scene().items().find(bodies[i])->property("velocity")->as<Vec2>();
+    };
+    const auto part = [&](int i) { return editor("velocity")->findChildren<QAbstractSpinBox*>().at(i); };
+    const auto shown = [&](int i) { return part(i)->text().section(' ', 0, 0).toStdString(); };  // without its unit
+    ASSERT_TRUE(eventually([&] { return editor("velocity") != nullptr && shown(0) == "1"; }));
+    EXPECT_EQ(shown(1), "") << "y differs";
+    const auto enter = [&](int i, const char* number) {
+        part(i)->selectAll();
+        QTest::keyClicks(part(i), number);
+        QTest::keyClick(part(i), Qt::Key_Return);
+    };
+    enter(0, "7");
+    EXPECT_EQ(velocityOf(0), Vec2(7, 2));
+    EXPECT_EQ(velocityOf(1), Vec2(7, 3));
+    enter(1, "5");
+    EXPECT_EQ(velocityOf(0), Vec2(7, 5));
+    EXPECT_EQ(velocityOf(1), Vec2(7, 5));
+    scene().undoRedo().undo();
+    scene().undoRedo().undo();
+    EXPECT_EQ(velocityOf(0), Vec2(1, 2));
+    EXPECT_EQ(velocityOf(1), Vec2(1, 3));
+}
+
+TEST_F(InspectorTest, TheFrameOfATextFollowsItsLettersInTheSameStep)
+{
+    ItemId id;
+    {
+        auto edit = scene().items().begin("Text");
+        const Item& text = edit.add<TextItem>(scene().root(), Path::rectangle(Box({10, 10}, {60, 40})));
+        edit.select(text);
+        edit.commit();
+        id = text.id();
+    }
+    ASSERT_TRUE(eventually([&] { return editor("size") && editor("font"); }));
+    const std::uint64_t before = scene().hash();
+    auto* size = editor("font")->parentWidget()->findChild<QWidget*>("size")->findChild<QAbstractSpinBox*>();
+    ASSERT_NE(size, nullptr) << "that of the letters, not that of the box";
+    size->selectAll();
+    QTest::keyClicks(size, "48");
+    QTest::keyClick(size, Qt::Key_Return);
+    const Item& text = *scene().items().find(id);
+    EXPECT_NEAR(text.bounds().height(), 1.2 * 48, 1e-9);
+    EXPECT_EQ(text.bounds().min, Vec2(10, 10));
+    scene().undoRedo().undo();
+    EXPECT_EQ(scene().hash(), before);
+}
+
 TEST_F(InspectorTest, WithNothingSelectedTheSceneIsShown)
 {
     EXPECT_EQ(editor("gravity"), nullptr);

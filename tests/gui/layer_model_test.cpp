@@ -1,6 +1,8 @@
 #include "layers/layer_model.hpp"
 #include "window_fixture.hpp"
 
+#include <jet/ui/icons.hpp>
+
 #include <QAbstractItemModelTester>
 #include <QApplication>
 #include <QMimeData>
@@ -159,6 +161,38 @@ TEST_F(LayerModelTest, FollowsALayerOfAHundredThousandItems)
     ASSERT_EQ(model_.rowCount(layer), 100000);
     add(*layer_, "one more");
     EXPECT_EQ(model_.rowCount(layer), 100001);
+}
+
+class LayerIconsTest : public WindowFixture {
+protected:
+    LayerIconsTest() : WindowFixture({"org.jet.items.physics", "org.jet.tool.selection"}), model_(window(), nullptr)
+    {
+        model_.setScene(&scene());
+    }
+    QModelIndex add(std::string_view type)
+    {
+        auto edit = scene().items().begin("Add");
+        const Item& item = edit.add(type, scene().root());
+        edit.commit();
+        model_.flush();
+        return model_.indexOf(item.id());
+    }
+    QImage icon(std::string_view type)
+    {
+        return qvariant_cast<QIcon>(add(type).data(Qt::DecorationRole)).pixmap(24).toImage();
+    }
+    LayerModel model_;
+};
+
+TEST_F(LayerIconsTest, KindsOfItemsOfPluginsShowTheirOwnIconAndName)
+{
+    const QImage unknown = ui::icon("unknown").pixmap(24).toImage();
+    EXPECT_FALSE(icon("joint").isNull());
+    EXPECT_NE(icon("joint"), unknown);
+    EXPECT_NE(icon("force-field"), unknown);
+    EXPECT_NE(icon("joint"), icon("force-field"));
+    EXPECT_EQ(add("force-field").data(Qt::ToolTipRole).toString(), "Force field");
+    EXPECT_EQ(add(ShapeItem::type).data(Qt::ToolTipRole).toString(), "Shape");
 }
 
 }  // namespace jet::test

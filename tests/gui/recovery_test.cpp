@@ -2,6 +2,7 @@
 #include "window_fixture.hpp"
 
 #include <jet/project_lock.hpp>
+#include <jet/start_scene.hpp>
 
 #include <QApplication>
 #include <QPushButton>
@@ -82,7 +83,7 @@ TEST_F(RecoveryTest, WhatWasDoneToTheProjectsTreeIsRecovered)
     answer(RecoveryChoice::Kind::Recover);
     ASSERT_TRUE(window().projects().open(folder("game")));
     EXPECT_EQ(window().project().hash(), hash);
-    EXPECT_EQ(window().project().scenes().front()->name(), "Level 2");
+    EXPECT_EQ(startScene(window().project())->name(), "Level 2");
 }
 
 TEST_F(RecoveryTest, KeepForLaterOpensTheSavedProjectAndOffersAgain)

@@ -9,8 +9,12 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QLineEdit>
+#include <QMenu>
 #include <QTest>
+#include <QTimer>
 #include <QToolButton>
+
+#include <fstream>
 
 namespace jet::test {
 
@@ -83,6 +87,21 @@ protected:
     {
         window().actionTable().refresh();
         return window().actionTable().find("edit.undo")->text().toStdString();
+    }
+    /// An entry of the context menu of a row.
+    void choose(const char* entry, const char* row)
+    {
+        select(row);
+        const QPoint at = rows().visualItemRect(item(row)).center();
+        // The menu is modal: its entry is pressed from inside.
+        QTimer::singleShot(0, panel_, [entry] {
+            auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+            if (!menu) return ADD_FAILURE() << "no menu";
+            for (QAction* action : menu->actions())
+                if (action->text() == entry) action->trigger();
+            menu->close();
+        });
+        emit rows().customContextMenuRequested(at);
     }
     void clickButton(const char* name) { QTest::mouseClick(panel_->findChild<QToolButton*>(name), Qt::LeftButton); }
     fs::path saved()
@@ -214,6 +233,19 @@ TEST_F(ScenesPanelTest, KeysMoveScenesAndTheStartIsChosen)
     EXPECT_FALSE(item("Scene 2")->icon(1).isNull());
     EXPECT_TRUE(item("Scene 0")->icon(1).isNull());
     EXPECT_EQ(undoText(), "&Undo Start with scene Scene 2");
+}
+
+TEST_F(ScenesPanelTest, PlayFirstLeavesTheSceneInItsPlaceAndIsSaved)
+{
+    trigger("scene.new");
+    select("Scene 1");
+    choose("Play first", "Scene 1");
+    EXPECT_EQ(sceneNames(), (std::vector<std::string>{"Scene 0", "Scene 1"}));
+    EXPECT_FALSE(item("Scene 1")->icon(1).isNull());
+    const fs::path place = saved();
+    ASSERT_TRUE(window().projects().open(place));
+    EXPECT_EQ(scene().name(), "Scene 1") << "it opens first, too";
+    EXPECT_FALSE(item("Scene 1")->icon(1).isNull());
 }
 
 TEST_F(ScenesPanelTest, ADropPutsASceneIntoAFilter)
@@ -359,6 +391,35 @@ TEST_F(ScenesPanelFilesTest, ClosingWithoutSavingPutsFilesBackToWhereTheSavedSce
     window().projects().create();  // the question is answered with Discard
     EXPECT_TRUE(fs::exists(game / "assets/cat.png"));
     EXPECT_FALSE(fs::exists(game / "assets/tom.png"));
+}
+
+TEST_F(ScenesPanelFilesTest, RemovedFilesGoForGoodOnlyWhenAskedAndNotNeededByUndo)
+{
+    const fs::path shelf = project().folder() / ".jet-removed";
+    fs::create_directories(shelf);
+    std::ofstream(shelf / "1 old.png") << "of an earlier session";
+    int asked = 0;
+    bool yes = false;
+    panel_->setEmptyQuestion([&](const QString& question) {
+        ++asked;
+        EXPECT_TRUE(question.contains("1 old.png")) << question.toStdString();
+        EXPECT_FALSE(question.contains("2 ")) << "what Undo needs is not in question";
+        return yes;
+    });
+    std::ofstream(project().folder() / "unused.txt") << "note";
+    window().projectTree().removeFile("unused.txt");
+    const auto empty = [&] { choose("Empty removed files…", "Files"); };
+    empty();
+    EXPECT_EQ(asked, 1);
+    EXPECT_TRUE(fs::exists(shelf / "1 old.png")) << "the answer was no";
+    yes = true;
+    empty();
+    EXPECT_FALSE(fs::exists(shelf / "1 old.png"));
+    window().projectTree().undo();
+    EXPECT_TRUE(fs::exists(project().folder() / "unused.txt"));
+    window().projectTree().redo();
+    empty();
+    EXPECT_EQ(asked, 2) << "nothing that may go is left: no question";
 }
 
 TEST_F(ScenesPanelFilesTest, AMissingFileIsShownAsMissing)

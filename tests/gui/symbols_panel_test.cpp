@@ -5,7 +5,9 @@
 
 #include <QApplication>
 #include <QDockWidget>
+#include <QDragEnterEvent>
 #include <QLineEdit>
+#include <QMimeData>
 #include <QPointer>
 #include <QTest>
 #include <QToolButton>
@@ -148,6 +150,28 @@ TEST_F(SymbolsPanelTest, AnInstanceIsPastedInAnotherEditorWithItsSymbol)
     trigger("edit.undo");
     trigger("edit.undo");
     EXPECT_TRUE(symbolsOf(scene()).empty());
+}
+
+TEST_F(SymbolsPanelTest, ASymbolDraggedIntoTheSceneIsPlacedWhereItWasDropped)
+{
+    create();
+    const std::unique_ptr<QMimeData> data(list().model()->mimeData({list().model()->index(0, 0)}));
+    ASSERT_NE(data, nullptr);
+    QDragEnterEvent enter({300, 200}, Qt::CopyAction, data.get(), Qt::LeftButton, {});
+    QApplication::sendEvent(&view(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent drop({300, 200}, Qt::CopyAction, data.get(), Qt::LeftButton, {});
+    QApplication::sendEvent(&view(), &drop);
+    ASSERT_EQ(instances().size(), 2u);
+    EXPECT_TRUE(instances().back()->bounds().center().isApprox(Vec2(300, 200)));
+    EXPECT_TRUE(scene().items().isSelected(instances().back()->id()));
+    trigger("edit.undo");
+    EXPECT_EQ(instances().size(), 1u);
+    QMimeData foreign;
+    foreign.setData("application/x-jet-scene-drag", "org.example.parts/1");
+    QDropEvent other({300, 200}, Qt::CopyAction, &foreign, Qt::LeftButton, {});
+    QApplication::sendEvent(&view(), &other);
+    EXPECT_EQ(instances().size(), 1u) << "another panel's";
 }
 
 }  // namespace jet::test

@@ -3,6 +3,7 @@
 
 #include <jet/format.hpp>
 #include <jet/project_tree.hpp>
+#include <jet/start_scene.hpp>
 
 #include <gmock/gmock.h>
 
@@ -142,6 +143,69 @@ TEST_F(ProjectTreeTest, AFileStepThatFailsLeavesHistoryAndFilesAsTheyWere)
     fs::remove(folder / "assets/a.txt");
     tree.undo();
     EXPECT_EQ(readFile(folder / "assets/a.txt").orThrow(), "a");
+    fs::remove_all(folder);
+}
+
+TEST_F(ProjectTreeTest, TheStartSceneIsChosenAndFollowsNamesRemovalsAndUndo)
+{
+    Scene& level = tree.addScene("Level", tree.addFilter("Levels", root()));
+    EXPECT_EQ(startScene(*project), &first()) << "none is chosen";
+    tree.makeStart(level);
+    tree.makeStart(level);
+    EXPECT_EQ(startScene(*project), &level);
+    EXPECT_EQ(project->scenes().back(), &level) << "it keeps its place";
+    EXPECT_EQ(tree.position(), 3u) << "what is so already is no step";
+    tree.rename(level, "Menu");
+    EXPECT_EQ(startScene(*project), &level);
+    tree.remove(*root().filters.front());
+    EXPECT_EQ(startScene(*project), &first());
+    tree.undo();
+    EXPECT_EQ(startScene(*project), &level);
+    tree.goTo(2);
+    EXPECT_EQ(startScene(*project), &first());
+    tree.goTo(5);
+    tree.goTo(4);
+    EXPECT_EQ(startScene(*project), &level);
+}
+
+TEST_F(ProjectTreeTest, TheStartSceneIsSavedAndWithoutOneTheFileIsAsBefore)
+{
+    const fs::path folder = fs::path(testing::TempDir()) / ("jet-start-" + std::to_string(::getpid()));
+    Scene& level = tree.addScene("Level", root());
+    project->saveAs(folder).orThrow();
+    const std::string before = readFile(folder / "project.jet").orThrow();
+    EXPECT_EQ(before.find("start"), std::string::npos);
+    tree.makeStart(level);
+    EXPECT_TRUE(project->isModified());
+    project->save().orThrow();
+    EXPECT_THAT(readFile(folder / "project.jet").orThrow(), testing::HasSubstr("name=\"Game\" start=\"Level\">"));
+    const auto again = Project::load(folder, events, catalog).orThrow();
+    EXPECT_EQ(again->hash(), project->hash());
+    EXPECT_EQ(startScene(*again)->name(), "Level");
+    tree.undo();
+    project->save().orThrow();
+    EXPECT_EQ(readFile(folder / "project.jet").orThrow(), before);
+    fs::remove_all(folder);
+}
+
+TEST_F(ProjectTreeTest, ANameThatNoSceneHasIsKeptToldAndDoesNotStart)
+{
+    const fs::path folder = fs::path(testing::TempDir()) / ("jet-lost-start-" + std::to_string(::getpid()));
+    Scene& level = tree.addScene("Level", root());
+    tree.makeStart(level);
+    project->saveAs(folder).orThrow();
+    std::string text = readFile(folder / "project.jet").orThrow();
+    text.replace(text.find("start=\"Level\""), 13, "start=\"Lost\"");
+    writeFileAtomically(folder / "project.jet", text).orThrow();
+    auto again = Project::load(folder, events, catalog).orThrow();
+    ASSERT_EQ(again->notes().size(), 1u);
+    EXPECT_THAT(again->notes().front().message, testing::HasSubstr("there is no scene 'Lost' to start with"));
+    EXPECT_EQ(startScene(*again)->name(), "Scene 0");
+    again->save(Overwrite::Allow).orThrow();
+    EXPECT_EQ(readFile(folder / "project.jet").orThrow(), text);
+    ProjectTree other(*again, events);
+    other.addScene("Lost", again->root());
+    EXPECT_EQ(startScene(*again)->name(), "Lost");
     fs::remove_all(folder);
 }
 

@@ -2,6 +2,7 @@
 
 #include <jet/arrange.hpp>
 #include <jet/ui/icons.hpp>
+#include <jet/ui/text_frame.hpp>
 
 #include <QCoreApplication>
 #include <QMenu>
@@ -221,8 +222,10 @@ void InspectorWidget::addTypeSection()
     }
     const auto source = [this](const PropertySpec& spec) { return subject_.common(spec.id, spec.fallback); };
     const auto handler = [this](const PropertySpec& spec, const Value& value, EditPhase phase) {
-        editItems("Change " + spec.label, spec.id, phase,
-                  [&](Transaction& e, const Item& item) { e.set(item, spec.id, value); });
+        editItems("Change " + spec.label, spec.id, phase, [&](Transaction& e, const Item& item) {
+            e.set(item, spec.id, resolved(value, item.property(spec.id).value_or(spec.fallback)));
+            if (item.is<TextItem>() && ui::shapesText(spec.id)) e.setPath(item, ui::fittedTextFrame(item));
+        });
     };
     if (!subject_.type().empty()) {
         addForm(section, typeOf(editor_.catalog(), subject_.type())->properties(), source, handler);
@@ -261,7 +264,8 @@ void InspectorWidget::addEffectSection(const SharedEffect& shared)
             [this, shared](const PropertySpec& spec, const Value& value, EditPhase phase) {
                 editEffect("Change " + spec.label, shared, shared.type + '.' + spec.id, phase,
                            [&](Transaction& e, const Item& item, std::size_t index) {
-                               e.setEffect(item, index, spec.id, value);
+                               const Value present = effectValue(item, index, spec.id, spec.fallback);
+                               e.setEffect(item, index, spec.id, resolved(value, present));
                            });
             });
 }

@@ -1,6 +1,8 @@
 #include "subject.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace jet::inspector {
 
@@ -16,20 +18,39 @@ std::vector<SharedEffect> effectsOf(const Item& item)
     return effects;
 }
 
-/// The value `of` gives for all items; none as soon as two differ.
+/// NaN in the parts in which two vectors differ, or one of them is mixed already.
+Vec2 common(const Vec2& a, const Vec2& b)
+{
+    constexpr double kMixed = std::numeric_limits<double>::quiet_NaN();
+    return {a.x() == b.x() ? a.x() : kMixed, a.y() == b.y() ? a.y() : kMixed};
+}
+
+/// The value `of` gives for all items; none as soon as two differ, but of vectors what is common to them.
 template <class Of>
 std::optional<Value> commonValue(const std::vector<const Item*>& items, Of of)
 {
     std::optional<Value> common;
     for (const Item* item : items) {
         Value value = of(*item);
-        if (common && !(*common == value)) return std::nullopt;
-        common = std::move(value);
+        if (!common) {
+            common = std::move(value);
+        } else if (common->kind() == ValueKind::Vec2 && value.kind() == ValueKind::Vec2) {
+            common = Value(inspector::common(common->template as<Vec2>(), value.template as<Vec2>()));
+        } else if (!(*common == value)) {
+            return std::nullopt;
+        }
     }
     return common;
 }
 
 }  // namespace
+
+Value resolved(const Value& wanted, const Value& present)
+{
+    if (wanted.kind() != ValueKind::Vec2 || present.kind() != ValueKind::Vec2) return wanted;
+    const Vec2 now = wanted.as<Vec2>(), before = present.as<Vec2>();
+    return Vec2(std::isnan(now.x()) ? before.x() : now.x(), std::isnan(now.y()) ? before.y() : now.y());
+}
 
 std::optional<std::size_t> indexOf(const Item& item, const SharedEffect& effect)
 {
@@ -95,14 +116,18 @@ std::optional<Value> Subject::common(std::string_view property, const Value& fal
     return commonValue(items_, [&](const Item& item) { return item.property(property).value_or(fallback); });
 }
 
+Value effectValue(const Item& item, std::size_t index, std::string_view property, const Value& fallback)
+{
+    const EffectInstance& instance = item.effects()[index];
+    if (property == "visible") return instance.visible;
+    const Value* stored = instance.properties.find(property);
+    return stored ? *stored : fallback;
+}
+
 std::optional<Value> Subject::common(const SharedEffect& effect, std::string_view property, const Value& fallback) const
 {
-    return commonValue(items_, [&](const Item& item) -> Value {
-        const EffectInstance& instance = item.effects()[*indexOf(item, effect)];
-        if (property == "visible") return instance.visible;
-        const Value* stored = instance.properties.find(property);
-        return stored ? *stored : fallback;
-    });
+    return commonValue(items_,
+                       [&](const Item& item) { return effectValue(item, *indexOf(item, effect), property, fallback); });
 }
 
 }  // namespace jet::inspector

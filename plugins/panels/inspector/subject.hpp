@@ -1,4 +1,5 @@
-// Subject: what the Inspector is about: the selected items, seen as one. A value in which they differ is "mixed": none.
+// Subject: what the Inspector is about: the selected items, seen as one. A value in which they differ is "mixed": none,
+// or of a vector NaN in the part in which they do.
 #pragma once
 
 #include <jet/catalog.hpp>
@@ -47,8 +48,12 @@ private:
     std::vector<SharedEffect> effects_;
 };
 
+/// What an item gets when the user entered `wanted`: of a vector, a part that is NaN stays as it is.
+Value resolved(const Value& wanted, const Value& present);
 /// Index of the effect on the item, if it has it.
 std::optional<std::size_t> indexOf(const Item& item, const SharedEffect& effect);
+/// A property of an item's effect, or "visible"; `fallback` where none is stored.
+Value effectValue(const Item& item, std::size_t index, std::string_view property, const Value& fallback);
 /// What the types declare alike: the table of the only one, or what their tables have in common.
 std::vector<PropertySpec> sharedProperties(Catalog& catalog, const std::set<std::string>& types);
 /// Of the SDK or of a plugin; null when the plugin is absent.

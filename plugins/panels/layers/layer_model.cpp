@@ -1,5 +1,6 @@
 #include "layer_model.hpp"
 
+#include <jet/item_type.hpp>
 #include <jet/symbols.hpp>
 #include <jet/ui/icons.hpp>
 
@@ -7,6 +8,7 @@
 #include <QMimeData>
 #include <QPalette>
 
+#include <algorithm>
 #include <utility>
 
 namespace jet::layers {
@@ -25,14 +27,25 @@ std::vector<ItemId> childIds(const Item& item)
     return ids;
 }
 
-QIcon iconOf(const Item& item)
+/// What a plugin's manifest says of its kind of items; null where no installed plugin has it.
+const Contribution* declared(const std::vector<Contribution>& kinds, const std::string& type)
 {
-    static std::unordered_map<std::string, QIcon> icons;
+    const auto found = std::ranges::find(kinds, type, &Contribution::id);
+    return found == kinds.end() ? nullptr : &*found;
+}
+
+QIcon iconOf(const Item& item, const Catalog& catalog)
+{
+    static std::unordered_map<std::string, QIcon> icons;  // that of a plugin which comes later is no unknown one
     const std::string name = isInstance(item) ? "symbol" : item.type();
     const auto found = icons.find(name);
     if (found != icons.end()) return found->second;
     QIcon icon = ui::icon(name);
-    return icons.emplace(name, icon.isNull() ? ui::icon("unknown") : icon).first->second;
+    const auto kinds = icon.isNull() ? catalog.contributions(ContributionKind::ItemType) : std::vector<Contribution>();
+    const Contribution* kind = declared(kinds, name);
+    if (!icon.isNull() || !kind) return icon.isNull() ? ui::icon("unknown") : icons.emplace(name, icon).first->second;
+    if (!kind->icon.empty()) icon = ui::iconFromFile(kind->icon);
+    return icons.emplace(name, icon.isNull() ? ui::icon("item") : icon).first->second;
 }
 
 const QIcon& toggleIcon(int column, bool on)
@@ -276,8 +289,11 @@ QString LayerModel::typeToolTip(const Item& item) const
         return tr("Instance of the symbol %1: what is changed in it changes in all of them.")
             .arg(QString::fromStdString(symbol->name()));
     Catalog& catalog = scene_->catalog();
-    const bool known = builtInItemType(item.type()) || catalog.itemType(item.type());
-    return QString::fromStdString(known ? item.type() : catalog.explain(ContributionKind::ItemType, item.type()));
+    if (const ItemType* builtIn = builtInItemType(item.type())) return QString::fromStdString(builtIn->label());
+    const auto kinds = catalog.contributions(ContributionKind::ItemType);
+    if (const Contribution* kind = declared(kinds, item.type()); kind && catalog.itemType(item.type()))
+        return QString::fromStdString(kind->label);
+    return QString::fromStdString(catalog.explain(ContributionKind::ItemType, item.type()));
 }
 
 QVariant LayerModel::data(const QModelIndex& index, int role) const
@@ -289,7 +305,7 @@ QVariant LayerModel::data(const QModelIndex& index, int role) const
     case Qt::DisplayRole: return column == Name ? QString::fromStdString(item->name()) : QVariant();
     case Qt::EditRole: return QString::fromStdString(item->name());
     case Qt::DecorationRole:
-        if (column == Name) return iconOf(*item);
+        if (column == Name) return iconOf(*item, scene_->catalog());
         return toggleIcon(column, column == Visible ? item->visible() : item->locked());
     case Qt::ToolTipRole: return column == Name ? typeToolTip(*item) : toolTipOf(column);
     case Qt::ForegroundRole:

@@ -3,13 +3,10 @@
 #include "layer_tree.hpp"
 
 #include <jet/plugin.hpp>
-#include <jet/ui/icons.hpp>
+#include <jet/ui/command_bar.hpp>
 #include <jet/ui/panel.hpp>
 
 #include <QCoreApplication>
-#include <QHBoxLayout>
-#include <QMenu>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <unordered_set>
@@ -29,8 +26,7 @@ public:
         layout->setContentsMargins(0, 0, 0, 0);
         layout->setSpacing(0);
         layout->addWidget(tree_);
-        layout->addLayout(createButtons());
-        connect(tree_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) { openMenu(at); });
+        layout->addWidget(makeBar());
         front_ = editor.events().subscribe<ActiveSceneChanged>(
             nullptr, [this](const ActiveSceneChanged& event) { tree_->showScene(event.scene); });
         tree_->showScene(editor.activeScene());
@@ -46,33 +42,13 @@ private:
     };
     static std::span<const Command> commands();
 
-    QHBoxLayout* createButtons()
+    ui::CommandBar* makeBar()
     {
-        auto* bar = new QHBoxLayout;
-        bar->setContentsMargins(4, 3, 4, 3);
-        bar->setSpacing(2);
-        for (const Command& command : commands()) {
-            if (!command.onBar) continue;
-            auto* button = new QToolButton(this);
-            button->setAutoRaise(true);
-            button->setIcon(ui::icon(command.icon));
-            button->setToolTip(translated(command.text));
-            connect(button, &QToolButton::clicked, this, [this, &command] { run(command); });
-            bar->addWidget(button);
-        }
-        bar->addStretch(1);
-        return bar;
-    }
-
-    void openMenu(const QPoint& at)
-    {
-        QMenu menu(this);
-        for (const Command& command : commands()) {
-            QAction* action = menu.addAction(ui::icon(command.icon), translated(command.text), this,
-                                             [this, &command] { run(command); });
-            action->setEnabled((this->*command.enabled)());
-        }
-        menu.exec(tree_->viewport()->mapToGlobal(at));
+        std::vector<ui::PanelCommand> all;
+        for (const Command& command : commands())
+            all.push_back({command.icon, command.text, translated(command.text), [this, &command] { run(command); },
+                           [this, &command] { return (this->*command.enabled)(); }, "", command.onBar});
+        return new ui::CommandBar(*tree_, std::move(all), this);
     }
 
     void run(const Command& command)

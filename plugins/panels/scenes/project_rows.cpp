@@ -1,6 +1,7 @@
 #include "project_rows.hpp"
 
 #include <jet/assets.hpp>
+#include <jet/start_scene.hpp>
 #include <jet/ui/icons.hpp>
 
 #include <QDragEnterEvent>
@@ -70,7 +71,6 @@ ProjectRows::ProjectRows(Editor& editor, QWidget* parent) : QTreeWidget(parent),
     setSelectionMode(SingleSelection);
     setDragDropMode(DragDrop);
     setDefaultDropAction(Qt::MoveAction);
-    setContextMenuPolicy(Qt::CustomContextMenu);
     connect(this, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
         if (building_ || column != kName) return;
         emit renamed(rowOf(*item), item->text(kName).trimmed());
@@ -109,7 +109,7 @@ void ProjectRows::rebuild()
     rows_.clear();
     Filter& root = editor_.project().root();
     QTreeWidgetItem* scenes = add(nullptr, {Row::Kind::Scenes, &root}, textOf(editor_.project().name()), "group");
-    scenes->setToolTip(kName, tr("The project's scenes. The first one plays first."));
+    scenes->setToolTip(kName, tr("The project's scenes. The one with the mark plays first."));
     addFilter(*scenes, root);
     QTreeWidgetItem* files = add(nullptr, {Row::Kind::Files}, tr("Files"), "open");
     files->setToolTip(kName, tr("Pictures, sounds and what else lies in the project's folder."));
@@ -131,9 +131,9 @@ void ProjectRows::addFilter(QTreeWidgetItem& parent, Filter& filter)
 void ProjectRows::addScene(QTreeWidgetItem& parent, Filter& filter, Scene& scene)
 {
     QTreeWidgetItem* item = add(&parent, {Row::Kind::Scene, &filter, &scene}, textOf(scene.name()), "scene");
-    if (editor_.project().scenes().front() == &scene) {
+    if (startScene(editor_.project()) == &scene) {
         item->setIcon(kMark, ui::icon("play"));
-        item->setToolTip(kMark, tr("The start scene: it plays when none is named."));
+        item->setToolTip(kMark, tr("This scene plays first."));
     }
     scene.root().walk([&](const Item& one) {
         if (one.is<ScriptItem>())

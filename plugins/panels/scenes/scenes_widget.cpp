@@ -2,15 +2,13 @@
 
 #include <jet/assets.hpp>
 #include <jet/ui/history_focus.hpp>
-#include <jet/ui/icons.hpp>
 
 #include <QDesktopServices>
 #include <QFileDialog>
-#include <QHBoxLayout>
-#include <QKeyEvent>
-#include <QMenu>
-#include <QToolButton>
+#include <QLocale>
+#include <QMessageBox>
 #include <QUrl>
+#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -26,6 +24,7 @@ bool isScene(const Row& row) { return row.kind == Kind::Scene; }
 bool isPlace(const Row& row) { return row.kind == Kind::Scene || row.kind == Kind::Filter; }
 bool isNamed(const Row& row) { return row.kind != Kind::Scenes && row.kind != Kind::Files; }
 bool opens(const Row& row) { return row.kind != Kind::Files && row.kind != Kind::Scenes && row.kind != Kind::Filter; }
+bool isFiles(const Row& row) { return row.kind == Kind::Files || row.kind == Kind::File; }
 bool takesScript(const Row& row) { return row.scene != nullptr; }
 bool doubles(const Row& row) { return row.kind == Kind::Scene || row.kind == Kind::Script; }
 bool always(const Row&) { return true; }
@@ -63,13 +62,10 @@ ScenesWidget::ScenesWidget(Editor& editor) : editor_(editor), rows_(new ProjectR
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(rows_);
-    auto* bar = new QWidget(this);
-    addButtons(*bar);
-    layout->addWidget(bar);
+    layout->addWidget(makeBar());
     setFocusProxy(rows_);
     aim(nullptr);
     qRegisterMetaType<jet::scenes::Row>("jet::scenes::Row");
-    rows_->installEventFilter(this);
     soon_.setSingleShot(true);
     connect(&soon_, &QTimer::timeout, this, [this] {
         if (!rows_->isEditing()) return rows_->rebuild();
@@ -80,7 +76,6 @@ ScenesWidget::ScenesWidget(Editor& editor) : editor_(editor), rows_(new ProjectR
     connect(rows_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
         if (item && rows_->hasFocus() && rows_->rowOf(*item).kind != Kind::Script) aim(nullptr);
     });
-    connect(rows_, &QWidget::customContextMenuRequested, this, &ScenesWidget::openMenu);
     connect(rows_, &ProjectRows::filesDropped, this, &ScenesWidget::takeFiles);
     // Later: the view is in the middle of closing its line of text, and the rows are made anew.
     connect(
@@ -96,6 +91,11 @@ ScenesWidget::ScenesWidget(Editor& editor) : editor_(editor), rows_(new ProjectR
     askFiles_ = [this] {
         return QFileDialog::getOpenFileNames(this, tr("Add files to the project"), {}, {}, nullptr,
                                              QFileDialog::DontUseNativeDialog);
+    };
+    askEmpty_ = [this](const QString& question) {
+        return QMessageBox::question(this, tr("Empty removed files"), question,
+                                     QMessageBox::Discard | QMessageBox::Cancel,
+                                     QMessageBox::Cancel) == QMessageBox::Discard;
     };
     follow();
     rows_->rebuild();
@@ -161,50 +161,26 @@ std::span<const ScenesWidget::Command> ScenesWidget::commands()
         {"script", QT_TR_NOOP("New script"), &W::addScript, takesScript, "", true},
         {"import", QT_TR_NOOP("Add files…"), &W::addFiles, always, "", true},
         {"open", QT_TR_NOOP("Open"), &W::open, opens, "Return", false},
-        {"play", QT_TR_NOOP("Make it the start scene"), &W::makeStart, isScene, "", false},
+        {"play", QT_TR_NOOP("Play first"), &W::makeStart, isScene, "", false},
         {"edit", QT_TR_NOOP("Rename"), &W::rename, isNamed, "F2", false},
         {"duplicate", QT_TR_NOOP("Duplicate"), &W::duplicate, doubles, "Ctrl+D", true},
         {"up", QT_TR_NOOP("Move up"), &W::up, isPlace, "Alt+Up", true},
         {"down", QT_TR_NOOP("Move down"), &W::down, isPlace, "Alt+Down", true},
         {"trash", QT_TR_NOOP("Delete"), &W::remove, isNamed, "Del", true},
+        {"", QT_TR_NOOP("Empty removed files…"), &W::emptyRemoved, isFiles, "", false},
     };
     return all;
 }
 
-void ScenesWidget::addButtons(QWidget& bar)
+ui::CommandBar* ScenesWidget::makeBar()
 {
-    auto* layout = new QHBoxLayout(&bar);
-    layout->setContentsMargins(4, 3, 4, 3);
-    layout->setSpacing(2);
-    for (const Command& command : commands()) {
-        if (!command.onBar) continue;
-        auto* button = new QToolButton(&bar);
-        button->setAutoRaise(true);
-        button->setIcon(ui::icon(command.icon));
-        const QString key = QKeySequence(command.key).toString(QKeySequence::NativeText);
-        button->setToolTip(key.isEmpty() ? tr(command.text) : QStringLiteral("%1 (%2)").arg(tr(command.text), key));
-        button->setObjectName(command.text);
-        button->setFocusPolicy(Qt::NoFocus);
-        connect(button, &QToolButton::clicked, this, [this, &command] {
-            rows_->setFocus();  // so that Undo goes where it happened
-            run(command);
-        });
-        layout->addWidget(button);
-    }
-    layout->addStretch(1);
-}
-
-void ScenesWidget::openMenu(const QPoint& at)
-{
-    QMenu menu(this);
-    const Row row = currentRow();
-    for (const Command& command : commands()) {
-        QAction* action =
-            menu.addAction(ui::icon(command.icon), tr(command.text), this, [this, &command] { run(command); });
-        action->setEnabled(command.fits(row));
-        action->setShortcut(QKeySequence(command.key));
-    }
-    menu.exec(rows_->viewport()->mapToGlobal(at));
+    std::vector<ui::PanelCommand> all;
+    for (const Command& command : commands())
+        all.push_back({command.icon, command.text, tr(command.text), [this, &command] { run(command); },
+                       [this, &command] { return command.fits(currentRow()); }, command.key, command.onBar});
+    auto* bar = new ui::CommandBar(*rows_, std::move(all), this);
+    bar->setFocusing(true);
+    return bar;
 }
 
 void ScenesWidget::run(const Command& command)
@@ -213,27 +189,6 @@ void ScenesWidget::run(const Command& command)
         const Row row = currentRow();
         if (command.fits(row)) (this->*command.run)(row);
     });
-}
-
-// The keys of the tree come before those of the window: Delete is for what has the focus.
-bool ScenesWidget::eventFilter(QObject* watched, QEvent* event)
-{
-    const bool isKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
-    if (!isKey || rows_->isEditing())  // the line being edited passes on what it did not use, Enter among it
-        return QWidget::eventFilter(watched, event);
-    const auto* key = static_cast<QKeyEvent*>(event);
-    const int code = key->key() == Qt::Key_Enter ? Qt::Key_Return : key->key();
-    const QKeySequence keys(static_cast<int>(key->modifiers() & ~Qt::KeypadModifier) | code);
-    const auto all = commands();
-    const auto command =
-        std::ranges::find_if(all, [&](const Command& one) { return *one.key != 0 && QKeySequence(one.key) == keys; });
-    if (command == all.end()) return QWidget::eventFilter(watched, event);
-    if (event->type() == QEvent::ShortcutOverride) {
-        event->accept();
-    } else {
-        run(*command);
-    }
-    return true;
 }
 
 // --- commands
@@ -283,6 +238,7 @@ void ScenesWidget::addScript(const Row& row)
     edit.commit();
     rebuildNow();
     rows_->makeCurrent({Kind::Script, row.filter, row.scene, script.id()});
+    aim(row.scene);  // the rows were made anew, and another one was the current one meanwhile
     rows_->editCurrent();
 }
 
@@ -357,6 +313,25 @@ void ScenesWidget::remove(const Row& row)
         edit.remove(*script);
         edit.commit();
     }
+}
+
+// Nothing goes without asking, and nothing that Undo, or closing without saving, still needs.
+void ScenesWidget::emptyRemoved(const Row&)
+{
+    ProjectTree& tree = editor_.projectTree();
+    const RemovedFiles files = tree.disposableFiles();
+    if (files.files.empty())
+        return editor_.showMessage(tr("There are no removed files but those that Undo may bring back.").toStdString());
+    QString question = tr("Delete %n removed file(s) for good, %1 in all? Nothing brings them back.", nullptr,
+                          static_cast<int>(files.files.size()))
+                           .arg(QLocale().formattedDataSize(static_cast<qint64>(files.bytes), 1));
+    constexpr std::size_t kShown = 8;
+    for (std::size_t i = 0; i < std::min(kShown, files.files.size()); ++i)
+        question += '\n' + QString::fromStdString(files.files[i].filename().string());
+    if (files.files.size() > kShown) question += QStringLiteral("\n…");
+    if (!askEmpty_(question)) return;
+    const std::size_t gone = tree.disposeFiles();
+    editor_.showStatus(tr("%n file(s) deleted for good.", nullptr, static_cast<int>(gone)).toStdString());
 }
 
 void ScenesWidget::makeStart(const Row& row)

@@ -5,6 +5,7 @@
 #include "project_rows.hpp"
 
 #include <jet/project_tree.hpp>
+#include <jet/ui/command_bar.hpp>
 
 #include <QTimer>
 #include <QWidget>
@@ -23,9 +24,10 @@ public:
     ProjectRows& rows() { return *rows_; }
     /// Replaces the dialog that asks for files, for tests.
     void setFileQuestion(std::function<QStringList()> question) { askFiles_ = std::move(question); }
+    /// Replaces the question whether removed files shall go for good, for tests.
+    void setEmptyQuestion(std::function<bool(const QString&)> question) { askEmpty_ = std::move(question); }
 
 protected:
-    bool eventFilter(QObject* watched, QEvent* event) override;
     void showEvent(QShowEvent* event) override;
 
 private:
@@ -39,8 +41,7 @@ private:
     };
     static std::span<const Command> commands();
 
-    void addButtons(QWidget& bar);
-    void openMenu(const QPoint& at);
+    ui::CommandBar* makeBar();
     void run(const Command& command);
     /// Runs what changes the project, and tells the user why it could not be done.
     void attempt(const std::function<void()>& change);
@@ -60,6 +61,7 @@ private:
     void duplicate(const Row& row);
     void remove(const Row& row);
     void makeStart(const Row& row);
+    void emptyRemoved(const Row& row);
     void up(const Row& row) { shift(row, -1); }
     void down(const Row& row) { shift(row, 1); }
     void shift(const Row& row, int by);
@@ -71,6 +73,7 @@ private:
     ProjectRows* rows_;
     QTimer soon_;
     std::function<QStringList()> askFiles_;
+    std::function<bool(const QString&)> askEmpty_;
     std::vector<Subscription> subscriptions_;
 };
 

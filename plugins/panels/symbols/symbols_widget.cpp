@@ -5,14 +5,9 @@
 #include <jet/arrange.hpp>
 #include <jet/find.hpp>
 #include <jet/symbols.hpp>
-#include <jet/ui/icons.hpp>
 
-#include <QHBoxLayout>
-#include <QKeyEvent>
-#include <QLineEdit>
-#include <QMenu>
+#include <QMimeData>
 #include <QTimer>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -23,6 +18,7 @@ namespace {
 
 const QSize kPicture(72, 48);
 constexpr int kIdRole = Qt::UserRole, kWhileTypingMs = 200;
+constexpr std::string_view kDrag = "org.jet.panel.symbols/";
 constexpr double kAside = 20;  // scene units: an instance does not hide the one before
 
 /// Where new things go: the active layer, else the top-most one that is not locked.
@@ -38,32 +34,50 @@ const Item& placeFor(Editor& editor, const Scene& scene)
     return scene.root();
 }
 
+/// Its rows can be dragged onto the scene.
+class SymbolList final : public QListWidget {
+public:
+    explicit SymbolList(QWidget* parent) : QListWidget(parent)
+    {
+        setDragEnabled(true);
+        setDragDropMode(DragOnly);
+    }
+
+protected:
+    QStringList mimeTypes() const override { return {ui::kSceneDrag}; }
+    QMimeData* mimeData(const QList<QListWidgetItem*>& items) const override
+    {
+        if (items.isEmpty()) return nullptr;
+        auto* data = new QMimeData;
+        data->setData(ui::kSceneDrag, QByteArray(kDrag.data(), qsizetype(kDrag.size())) +
+                                          QByteArray::number(items.front()->data(kIdRole).toULongLong()));
+        return data;
+    }
+};
+
 }  // namespace
 
-SymbolsWidget::SymbolsWidget(Editor& editor) : editor_(editor), list_(new QListWidget(this))
+SymbolsWidget::SymbolsWidget(Editor& editor) : editor_(editor), list_(new SymbolList(this)), bar_(makeBar())
 {
     list_->setObjectName("symbol-list");
     list_->setAccessibleName(tr("Symbols"));
     list_->setIconSize(kPicture);
     list_->setUniformItemSizes(true);
     list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    list_->setContextMenuPolicy(Qt::CustomContextMenu);
-    list_->installEventFilter(this);
-    auto* bar = new QWidget(this);
-    addButtons(*bar);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(list_);
-    layout->addWidget(bar);
+    layout->addWidget(bar_);
     setFocusProxy(list_);
     connect(list_, &QListWidget::itemDoubleClicked, this, [this] { run(commands()[1]); });
-    connect(list_, &QWidget::customContextMenuRequested, this, &SymbolsWidget::openMenu);
     connect(list_, &QListWidget::itemChanged, this, [this](QListWidgetItem* row) {
         if (!building_) giveName(*row);
     });
     front_ = editor.events().subscribe<ActiveSceneChanged>(
         nullptr, [this](const ActiveSceneChanged& event) { watch(event.scene); });
+    dropped_ = editor.events().subscribe<ui::DroppedOnScene>(
+        nullptr, [this](const ui::DroppedOnScene& drop) { takeDrop(drop); });
     watch(editor.activeScene());
 }
 
@@ -96,7 +110,7 @@ bool SymbolsWidget::concerns(const ItemsChanged::Burst& burst) const
 // Rows of symbols that were there stay: a click, a drag or a name being typed goes on.
 void SymbolsWidget::rebuild()
 {
-    if (isTyping()) return QTimer::singleShot(kWhileTypingMs, this, &SymbolsWidget::rebuild);
+    if (bar_->isTyping()) return QTimer::singleShot(kWhileTypingMs, this, &SymbolsWidget::rebuild);
     const auto symbols = scene_ ? symbolsOf(*scene_) : std::vector<const Item*>();
     const auto idOf = [this](int row) { return list_->item(row)->data(kIdRole).toULongLong(); };
     building_ = true;
@@ -117,18 +131,13 @@ void SymbolsWidget::rebuild()
     building_ = false;
 }
 
-bool SymbolsWidget::isTyping() const
-{
-    const auto* line = list_->findChild<QLineEdit*>();
-    return line && line->isVisible();
-}
-
 void SymbolsWidget::showSymbol(QListWidgetItem& row, const Item& symbol)
 {
     row.setText(QString::fromStdString(symbol.name()));
     row.setIcon(QIcon(thumbnailOf(*scene_, symbol, kPicture, devicePixelRatioF())));
-    row.setToolTip(tr("%n instance(s) in this scene. A double click places another one.", nullptr,
-                      static_cast<int>(instancesOf(*scene_, symbol).size())));
+    row.setToolTip(
+        tr("%n instance(s) in this scene. Dragged into the scene, or by a double click, another one is placed.",
+           nullptr, static_cast<int>(instancesOf(*scene_, symbol).size())));
 }
 
 const Item* SymbolsWidget::current() const
@@ -154,35 +163,14 @@ std::span<const SymbolsWidget::Command> SymbolsWidget::commands()
     return all;
 }
 
-void SymbolsWidget::addButtons(QWidget& bar)
+ui::CommandBar* SymbolsWidget::makeBar()
 {
-    auto* layout = new QHBoxLayout(&bar);
-    layout->setContentsMargins(4, 3, 4, 3);
-    layout->setSpacing(2);
-    for (const Command& command : commands()) {
-        if (!command.onBar) continue;
-        auto* button = new QToolButton(&bar);
-        button->setAutoRaise(true);
-        button->setIcon(ui::icon(command.icon));
-        button->setToolTip(tr(command.text));
-        button->setObjectName(command.text);
-        button->setFocusPolicy(Qt::NoFocus);
-        connect(button, &QToolButton::clicked, this, [this, &command] { run(command); });
-        layout->addWidget(button);
-    }
-    layout->addStretch(1);
-}
-
-void SymbolsWidget::openMenu(const QPoint& at)
-{
-    QMenu menu(this);
-    for (const Command& command : commands()) {
-        QAction* action =
-            menu.addAction(ui::icon(command.icon), tr(command.text), this, [this, &command] { run(command); });
-        action->setEnabled(scene_ && (!command.needsSymbol || current()));
-        action->setShortcut(QKeySequence(command.key));
-    }
-    menu.exec(list_->viewport()->mapToGlobal(at));
+    std::vector<ui::PanelCommand> all;
+    for (const Command& command : commands())
+        all.push_back({command.icon, command.text, tr(command.text), [this, &command] { run(command); },
+                       [this, &command] { return scene_ && (!command.needsSymbol || current()); }, command.key,
+                       command.onBar});
+    return new ui::CommandBar(*list_, std::move(all), this);
 }
 
 void SymbolsWidget::run(const Command& command)
@@ -195,22 +183,6 @@ void SymbolsWidget::run(const Command& command)
     } catch (const std::exception& problem) {
         editor_.showMessage(problem.what());
     }
-}
-
-// The keys of the list come before those of the window: Delete is for what has the focus.
-bool SymbolsWidget::eventFilter(QObject* watched, QEvent* event)
-{
-    const bool isKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
-    if (!isKey || isTyping()) return QWidget::eventFilter(watched, event);
-    const auto* key = static_cast<QKeyEvent*>(event);
-    const int code = key->key() == Qt::Key_Enter ? Qt::Key_Return : key->key();
-    const QKeySequence keys(static_cast<int>(key->modifiers() & ~Qt::KeypadModifier) | code);
-    for (const Command& command : commands()) {
-        if (*command.key == 0 || QKeySequence(command.key) != keys) continue;
-        event->type() == QEvent::KeyPress ? run(command) : event->accept();
-        return true;
-    }
-    return QWidget::eventFilter(watched, event);
 }
 
 // --- commands
@@ -228,6 +200,24 @@ void SymbolsWidget::create()
     rebuild();
     for (int i = 0; i < list_->count(); ++i)
         if (list_->item(i)->data(kIdRole).toULongLong() == symbol.value) list_->setCurrentRow(i);
+}
+
+/// The symbol's middle comes to where it was dropped.
+void SymbolsWidget::takeDrop(const ui::DroppedOnScene& drop)
+{
+    if (!drop.data.starts_with(kDrag) || drop.scene != scene_ || scene_->items().inTransaction()) return;
+    const Item* symbol =
+        scene_->items().find(ItemId{QByteArray::fromStdString(drop.data.substr(kDrag.size())).toULongLong()});
+    if (!symbol || !isSymbol(*symbol)) return;
+    try {
+        auto edit = scene_->items().begin("Place symbol");
+        const Item& instance = placeSymbol(edit, *symbol, placeFor(editor_, *scene_),
+                                           Affine::translation(drop.at - symbol->bounds().center()));
+        edit.select(instance);
+        edit.commit();
+    } catch (const std::exception& problem) {
+        editor_.showMessage(problem.what());
+    }
 }
 
 void SymbolsWidget::place()

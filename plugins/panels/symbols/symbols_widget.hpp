@@ -3,6 +3,8 @@
 #pragma once
 
 #include <jet/editor.hpp>
+#include <jet/ui/command_bar.hpp>
+#include <jet/ui/scene_drop.hpp>
 
 #include <QListWidget>
 
@@ -20,7 +22,6 @@ public:
     QListWidget& list() { return *list_; }
 
 protected:
-    bool eventFilter(QObject* watched, QEvent* event) override;
     void showEvent(QShowEvent* event) override;
 
 private:
@@ -33,17 +34,15 @@ private:
     };
     static std::span<const Command> commands();
 
-    void addButtons(QWidget& bar);
-    void openMenu(const QPoint& at);
+    ui::CommandBar* makeBar();
     void run(const Command& command);
     void watch(Scene* scene);
     /// Is something of a symbol among what changed?
     bool concerns(const ItemsChanged::Burst& burst) const;
     void rebuild();
-    /// Is a name being typed?
-    bool isTyping() const;
     void showSymbol(QListWidgetItem& row, const Item& symbol);
     const Item* current() const;
+    void takeDrop(const ui::DroppedOnScene& drop);
 
     void create();
     void place();
@@ -57,8 +56,9 @@ private:
     Editor& editor_;
     Scene* scene_ = nullptr;
     QListWidget* list_;
+    ui::CommandBar* bar_;
     bool building_ = false;
-    Subscription front_, changed_;
+    Subscription front_, changed_, dropped_;
 };
 
 }  // namespace jet::symbol_list

@@ -23,6 +23,14 @@ struct ProjectTreeChanged {
     const Project* project;
 };
 
+/// Files that ProjectTree::removeFile() put aside, in this session or earlier ones.
+struct RemovedFiles {
+    std::vector<std::filesystem::path> files;  ///< absolute, sorted
+    std::uintmax_t bytes = 0;
+};
+/// All that lie in the folder .jet-removed of a project's folder. [any thread]
+JET_API RemovedFiles removedFiles(const std::filesystem::path& projectFolder);
+
 /// The way to change a project's tree. Methods throw Failure, saying why, for what cannot be done; the tree is then as
 /// before. While there is history, nothing else may remove scenes or filters from the project. [owner's thread]
 class JET_API ProjectTree {
@@ -45,7 +53,7 @@ public:
     void move(Filter& filter, Filter& parent, std::size_t index);
     /// A copy under the next free name, right after it: content, settings, materials and symbols, without history.
     Scene& duplicate(Scene& scene);
-    /// The scene that plays when none is named is the first one: moves it there, to the top of the root filter.
+    /// Makes it the scene that plays when none is named (jet/start_scene.hpp), whatever place it has in the tree.
     void makeStart(Scene& scene);
 
     /// Copies a file into the project's assets/ (jet/assets.hpp) and returns its path in the project. No step where a
@@ -56,6 +64,11 @@ public:
     void removeFile(const std::string& path);
     /// Gives an asset another name in its folder, and rewrites what refers to it, as one step of each scene.
     void renameFile(const std::string& path, const std::string& name);
+    /// The removed files that neither Undo nor closing without saving will ask for: what may go for good.
+    RemovedFiles disposableFiles() const;
+    /// Deletes what disposableFiles() tells of. No step, and nothing brings them back: ask before. Returns how many
+    /// went; those that cannot be deleted stay.
+    std::size_t disposeFiles();
     /// The project was saved: revertFiles() goes back to here.
     void markSaved();
     /// Files change at once, scenes when they are saved. When the project is closed without saving, this puts removed

@@ -39,6 +39,8 @@ constexpr IconData kIcons[] = {
      ""},
     {"up", "M 5 14.5 L 12 7.5 L 19 14.5", ""},
     {"down", "M 5 9.5 L 12 16.5 L 19 9.5", ""},
+    {"more-right", "M 5 5 L 12 12 L 5 19 M 12 5 L 19 12 L 12 19", ""},
+    {"more-below", "M 5 5 L 12 12 L 19 5 M 5 12 L 12 19 L 19 12", ""},
     {"duplicate", "M 8.5 8.5 H 20 V 20 H 8.5 Z M 15.5 8.5 V 4 H 4 V 15.5 H 8.5", ""},
     {"copy", "M 8.5 8.5 H 20 V 20 H 8.5 Z M 15.5 8.5 V 4 H 4 V 15.5 H 8.5", ""},
     {"cut",

@@ -16,6 +16,9 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <cmath>
+#include <limits>
+
 namespace jet::ui {
 
 namespace {
@@ -86,8 +89,9 @@ public:
         layout->addWidget(y_, 1);
         setFocusProxy(x_);
         const auto changed = [this](double, bool done) {
-            if (!x_->number() || !y_->number()) return;  // wait for the other one
-            report(Vec2(*x_->number(), *y_->number()), done ? EditPhase::Done : EditPhase::Ongoing);
+            const auto x = x_->number(), y = y_->number();
+            if (!apart_ && (!x || !y)) return;  // wait for the other one
+            report(Vec2(x.value_or(kMixed), y.value_or(kMixed)), done ? EditPhase::Done : EditPhase::Ongoing);
         };
         x_->setHandler(changed);
         y_->setHandler(changed);
@@ -95,13 +99,17 @@ public:
 
     void show(const std::optional<Value>& value) override
     {
-        const std::optional<Vec2> v = value ? std::optional(value->as<Vec2>()) : std::nullopt;
-        x_->setNumber(v ? std::optional(v->x()) : std::nullopt);
-        y_->setNumber(v ? std::optional(v->y()) : std::nullopt);
+        const Vec2 v = value ? value->as<Vec2>() : Vec2(kMixed, kMixed);
+        apart_ = value && v.hasNaN();
+        const auto shown = [](double part) { return std::isnan(part) ? std::nullopt : std::optional(part); };
+        x_->setNumber(shown(v.x()));
+        y_->setNumber(shown(v.y()));
     }
 
 private:
+    static constexpr double kMixed = std::numeric_limits<double>::quiet_NaN();
     NumberEdit *x_, *y_;
+    bool apart_ = false;  // each part by itself
 };
 
 class ColorEditor final : public PropertyEditor {

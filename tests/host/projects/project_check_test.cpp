@@ -191,6 +191,21 @@ TEST_F(ProjectCheckTest, ScenesThatAreNotListedAreAdded)
     EXPECT_THAT(check().findings, IsEmpty()) << "it may be the other project's";
 }
 
+TEST_F(ProjectCheckTest, AStartSceneThatIsMissingIsNamedAndLeftOut)
+{
+    const std::string rest =
+        "<filter name=\"F\">\n    <scene name=\"A\" file=\"a.scene\"/>\n  </filter>\n</jet-project>\n";
+    write("game/project.jet", "<jet-project version=\"1\" name=\"G\" start=\"A\">" + rest);
+    write("game/a.scene", "<scene version=\"1\"/>\n");
+    EXPECT_THAT(texts(check()), IsEmpty());
+    write("game/project.jet", "<jet-project version=\"1\" name=\"G\" start=\"Lost\">" + rest);
+    const CheckReport found = check();
+    EXPECT_TRUE(found.isFine()) << "it plays all the same";
+    EXPECT_THAT(texts(found), ElementsAre(HasSubstr("project.jet:1:2: error: there is no scene 'Lost' to start with")));
+    EXPECT_TRUE(repair().isFine());
+    EXPECT_THAT(texts(check()), IsEmpty());
+}
+
 TEST_F(ProjectCheckTest, EntriesThatMeetAreParted)
 {
     write("game/project.jet", "<jet-project version=\"1\" name=\"G\"><filter name=\"F\">\n"

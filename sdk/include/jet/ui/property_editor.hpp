@@ -26,7 +26,9 @@ public:
     explicit PropertyEditor(QWidget* parent);
     ~PropertyEditor() override;
 
-    /// Shows a value. None: several values that differ; the editor is blank until the user enters one for all.
+    /// Shows a value. None: several values that differ; the editor is blank until the user enters one for all. A vector
+    /// may have NaN where only that part differs: its parts are then entered one by one, and what is reported has NaN
+    /// in the part that shall stay as it is.
     virtual void show(const std::optional<Value>& value) = 0;
     /// Called for each change the user makes.
     void setHandler(Handler handler) { handler_ = std::move(handler); }
