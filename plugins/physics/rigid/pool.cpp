@@ -11,6 +11,9 @@ namespace {
 constexpr auto kPatience = std::chrono::microseconds(60), kAttention = std::chrono::microseconds(2000);
 // Pauses a thread is given to begin its share, a few microseconds: its data are not in the other's cache.
 constexpr int kRespite = 150;
+// A worker that is this late, and four times as late as the caller was busy, has lost its processor.
+constexpr auto kStall = std::chrono::microseconds(500);
+constexpr int kShortestRest = 8, kLongestRest = 256;  // steps
 
 void pause()
 {
@@ -28,7 +31,28 @@ void Pool::setThreads(int threads)
     threads = std::clamp(threads, 1, 64);
     if (threads == threads_) return;
     stop();
-    threads_ = threads;
+    threads_ = used_ = threads;
+    rest_ = 0;
+}
+
+void Pool::beginStep()
+{
+    stalled_ = false;
+    used_ = rest_ > 0 ? 1 : threads_;
+    rest_ = std::max(rest_ - 1, 0);
+    attended_.store(used_ > 1, std::memory_order_relaxed);
+}
+
+void Pool::endStep()
+{
+    attended_.store(false, std::memory_order_relaxed);
+    if (stalled_) {
+        nextRest_ = std::min(std::max(2 * nextRest_, kShortestRest), kLongestRest);
+        rest_ = nextRest_;
+    } else if (used_ > 1) {
+        nextRest_ = std::max(nextRest_ - 1, 0);
+    }
+    used_ = threads_;
 }
 
 void Pool::start()
@@ -79,6 +103,7 @@ std::size_t Pool::finishOthers(std::size_t self)
 void Pool::fork(Call call, void* what, std::size_t blocks)
 {
     if (workers_.empty()) start();
+    const auto since = std::chrono::steady_clock::now();
     done_.store(0, std::memory_order_relaxed);
     task_ += kTask;
     // The caller's own comes last, so that nobody takes from it before he has one himself.
@@ -95,11 +120,22 @@ void Pool::fork(Call call, void* what, std::size_t blocks)
     std::size_t mine = finishShare(shares_[0], true);
     mine += finishOthers(0);
     if (mine > 0) done_.fetch_add(mine, std::memory_order_acq_rel);
-    // The others are in the midst of their last block; if they have lost their processor, ours may be what they need.
-    for (int round = 0; done_.load(std::memory_order_acquire) != blocks; ++round) {
+    await(blocks, since);
+}
+
+/// The others are in the midst of their last blocks; if they have lost their processor, ours may be what they need.
+void Pool::await(std::size_t blocks, std::chrono::steady_clock::time_point since)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto finished = [&] { return done_.load(std::memory_order_acquire) == blocks; };
+    const auto mine = Clock::now() - since;
+    for (int round = 0; round < 2000; ++round) {
+        if (finished()) return;
         pause();
-        if (round > 2000) std::this_thread::yield();
     }
+    while (!finished()) std::this_thread::yield();
+    const auto late = Clock::now() - since - mine;
+    stalled_ = stalled_ || (late > kStall && late > 4 * mine);
 }
 
 void Pool::serve(std::size_t self)

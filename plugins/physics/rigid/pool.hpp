@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -26,13 +27,15 @@ public:
 
     /// Of run(), with the caller's. Threads are started when they are first needed.
     void setThreads(int threads);
-    int threads() const { return threads_; }
+    /// How many are used now: one, where others keep the processors.
+    int threads() const { return used_; }
 
-    /// While something lives that attends, workers wait for the next task without falling asleep, but not for long.
+    /// Lives for a step. Workers then wait for the next task without falling asleep, but not for long. If one of them
+    /// lost its processor in the midst of something, the caller goes on alone for some steps, more of them each time.
     class Attention {
     public:
-        explicit Attention(Pool& pool) : pool_(pool) { pool_.attended_.store(true, std::memory_order_relaxed); }
-        ~Attention() { pool_.attended_.store(false, std::memory_order_relaxed); }
+        explicit Attention(Pool& pool) : pool_(pool) { pool_.beginStep(); }
+        ~Attention() { pool_.endStep(); }
         Attention(const Attention&) = delete;
         Attention& operator=(const Attention&) = delete;
 
@@ -44,7 +47,7 @@ public:
     template <class Work>
     void run(std::size_t blocks, Work&& work)
     {
-        if (threads_ <= 1 || blocks <= 1) {
+        if (used_ <= 1 || blocks <= 1) {
             for (std::size_t block = 0; block < blocks; ++block) work(block);
             return;
         }
@@ -55,7 +58,7 @@ public:
     template <class Work>
     void ranges(std::size_t count, std::size_t size, Work&& work)
     {
-        if (threads_ <= 1 || count <= size) {
+        if (used_ <= 1 || count <= size) {
             if (count > 0) work(std::size_t{0}, count);
             return;
         }
@@ -67,7 +70,10 @@ private:
     using Call = void (*)(void*, std::size_t);
     static constexpr std::uint64_t kTask = std::uint64_t{1} << 32;
     struct Share;
+    void beginStep();
+    void endStep();
     void fork(Call, void* what, std::size_t blocks);
+    void await(std::size_t blocks, std::chrono::steady_clock::time_point since);
     void start();
     void stop();
     void serve(std::size_t self);
@@ -85,7 +91,9 @@ private:
         std::atomic<std::uint64_t> ticket{0};  // number of the task, blocks left to take
     };
 
-    int threads_ = 1;
+    int threads_ = 1, used_ = 1;
+    int rest_ = 0, nextRest_ = 0;  // steps to go on alone; after the next stall
+    bool stalled_ = false;         // did the caller wait for a worker for long in this step?
     std::vector<std::thread> workers_;
     std::vector<Share> shares_;  // [threads]
     std::uint64_t task_ = 0;

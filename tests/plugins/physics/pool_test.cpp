@@ -70,6 +70,32 @@ TEST(Pool, WorkersThatSleepAreWokenAndMayChangeInNumber)
     }
 }
 
+TEST(Pool, GoesOnAloneForSomeStepsAfterAWorkerKeptItWaiting)
+{
+    Pool pool;
+    pool.setThreads(2);
+    const auto caller = std::this_thread::get_id();
+    // Until a worker has woken up while the caller was busy, and kept it waiting much longer.
+    for (int i = 0; i < 200; ++i) {
+        {
+            const Pool::Attention step(pool);
+            pool.run(2, [&](std::size_t) {
+                const bool isCaller = std::this_thread::get_id() == caller;
+                std::this_thread::sleep_for(std::chrono::milliseconds(isCaller ? 5 : 100));
+            });
+        }
+        const Pool::Attention next(pool);
+        if (pool.threads() == 1) break;
+    }
+    int alone = 1;
+    for (; alone < 1000; ++alone) {
+        const Pool::Attention step(pool);
+        if (pool.threads() == 2) break;
+        pool.run(2, [&](std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); });
+    }
+    EXPECT_EQ(alone, 8);
+}
+
 }  // namespace
 
 }  // namespace jet::physics::test
