@@ -16,8 +16,7 @@ constexpr float kRoomOfLength = 0.05F;
 constexpr float kAhead = 2;     // steps
 constexpr float kQuiet = 0.5F;  // slops: within this far of where it was a body counts as still
 constexpr float kMoved = 1e30F;
-constexpr float kThin = 0.5F;  // of the thickness
-constexpr float kLonger = 3;
+constexpr float kThin = 0.5F;      // of the thickness
 constexpr float kLongTypical = 6;  // typical lengths: longer thin parts are sought piece by piece
 constexpr int kMostPieces = 64;
 constexpr std::size_t kSoughtABlock = 128;  // parts
@@ -120,6 +119,7 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
     });
     if (left) sweep_.noteMoves();
     findPairs(settings, pool);
+    hits_.assign(contacts_.size(), 0);
     stats.broadPhaseMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -137,8 +137,10 @@ void Collider::prepareSweep()
 {
     if (typical_ == 0 && !parts_.empty()) measure();
     sweep_.resize(parts_.size(), typical_);
-    for (Index part = 0; part < parts_.size(); ++part)
+    for (Index part = 0; part < parts_.size(); ++part) {
+        sweep_.setReach(part, parts_[part].reach);
         if (isLong(parts_[part])) sweep_.setLong(part);
+    }
 }
 
 void Collider::prepareBodies()
@@ -316,7 +318,6 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
 void Collider::findPairs(const WorldSettings& settings, Pool& pool)
 {
     if (!sweep_.anyMoved()) return;
-    // What met before is known already, or is none; but for long parts, whose boxes met before they did.
     sweep_.begin();
     const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
     if (foundBy_.size() < blocks) foundBy_.resize(blocks);
@@ -324,8 +325,8 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool)
         auto& found = foundBy_[block];
         found.clear();
         const std::size_t first = block * kSoughtABlock, last = std::min(sweep_.parts(), first + kSoughtABlock);
-        sweep_.seek(first, last, [&](Index a, Index b, bool met) {
-            if ((met && !isLonger(a, b)) || known_.contains(RigidContact::keyOf(a, b))) return;
+        sweep_.seek(first, last, [&](Index a, Index b) {
+            if (known_.contains(RigidContact::keyOf(a, b))) return;
             if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
             found.emplace_back(a, b);
         });
@@ -341,6 +342,7 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool)
     });
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     for (const auto& [a, b] : found_) addPair(std::min(a, b), std::max(a, b), settings);
+    hits_.resize(contacts_.size(), 0);
 }
 
 bool Collider::mayMeet(Index a, Index b) const
@@ -386,13 +388,6 @@ void Collider::forget(Index contact)
     known_.erase(contacts_[contact].key());
     places_[contact] = kFree;
     free_.push_back(contact);
-}
-
-/// Is one of them so long that its box meets much that it does not?
-bool Collider::isLonger(Index partA, Index partB) const
-{
-    const float a = parts_[partA].reach, b = parts_[partB].reach;
-    return std::max(a, b) > kLonger * std::min(a, b);
 }
 
 /// Boxes of long oblique parts meet much that they do not: here B's box is looked at from A's sides.

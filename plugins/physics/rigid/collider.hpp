@@ -51,11 +51,11 @@ public:
     /// The same for one without points. Cheaper, and says less often yes: not before its bodies may have come together.
     bool nears(Index contact) const
     {
+        // Nothing is skipped that can be computed: whether it moves far enough cannot be predicted.
         const Nearing& n = nearing_[contact];
-        if (n.until >= 0 &&
-            (drift_[n.bodyA] + drift_[n.bodyB] <= n.slop || reached_[n.bodyA] + reached_[n.bodyB] <= n.until))
-            return false;
-        return due(contacts_[contact]);
+        const bool moved = drift_[n.bodyA] + drift_[n.bodyB] > n.slop,
+                   near = reached_[n.bodyA] + reached_[n.bodyB] > n.until;
+        return (moved & near) != 0 || (n.until < 0 && contacts_[contact].due);
     }
     /// It is looked at in the next step.
     void markDue(Index contact) { contacts_[contact].due = true, nearing_[contact].until = -1; }
@@ -159,7 +159,7 @@ private:
     {
         reached_[body] = way_[body] + static_cast<double>(poses_[body].travel + surprise_[body]);
     }
-    bool isLonger(Index partA, Index partB) const;
+    bool isLonger(Index partA, Index partB) const { return sweep_.isLonger(partA, partB); }
     float withinBox(Index body, const Vec2& move, double dt) const;
     float untilCentrePasses(const RigidContact&, const Vec2& relativeMove) const;
     float closingSpeed(const RigidContact&) const;
@@ -188,6 +188,7 @@ private:
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;       // [contacts]
     std::vector<Nearing> nearing_;    // [contacts]
+    std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step?
     std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
     std::vector<double> reached_;     // [bodies] units they may have come at the end of this step
     std::vector<Index> free_;         // gaps in the contacts

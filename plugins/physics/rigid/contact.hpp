@@ -71,8 +71,7 @@ struct alignas(16) RigidContact {
     bool resolve = true;           // false: sensors, or a platform passed from behind
     bool due = true;               // to be looked at in the next step in any case
     bool foreseen = false;         // its point is one of a hit later in the step
-    bool hits = false;             // so hard that what lies behind must be known
-    std::uint8_t unused = 0;
+    std::uint16_t unused = 0;
     std::uint16_t ids[2] = {0, 0};
     float stepImpulse = 0;                                  // greatest of the step in which they began to touch
     Vec2f normal;                                           // in A's frame, from A to B

@@ -74,11 +74,12 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     if (!fast_) return false;
     bool grew = false;
     for (Index i = 0; i < contacts_.size(); ++i) {
+        const Nearing& n = nearing_[i];
+        const float surprised = surprised_ ? std::max(surprise_[n.bodyA], surprise_[n.bodyB]) : 0;
+        if (hits_[i] == 0 && surprised == 0) continue;
         const RigidContact& c = contacts_[i];
         if (!isPlaced(places_[i]) || !c.resolve || c.count == 0) continue;
-        const float surprised = std::max(surprise_[c.bodyA], surprise_[c.bodyB]);
-        if (!c.hits && surprised == 0) continue;
-        const float travel = std::max(c.hits ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
+        const float travel = std::max(hits_[i] != 0 ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
         const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
         if (!(a + b > 0)) continue;
         const auto gain = [&](double share) {

@@ -41,12 +41,21 @@ int farthestSide(const A& a, const B& b, float& separation)
 {
     int best = 0;
     separation = -3e38F;
-    for (int i = 0; i < a.count; ++i) {
-        const Vec2f n = a.normals[i];
-        const float offset = dot(n, a.corners[i]);
-        float least = dot(n, b.corners[0]);
-        for (int j = 1; j < b.count; ++j) least = std::min(least, dot(n, b.corners[j]));
-        if (least - offset > separation) separation = least - offset, best = i;
+    for (int first = 0; first < a.count; first += 4) {
+        // Four sides at once against each corner; those beyond the last are not looked at.
+        const auto x = [](Four p, Four q) { return __builtin_shufflevector(p, q, 0, 2, 4, 6); };
+        const auto y = [](Four p, Four q) { return __builtin_shufflevector(p, q, 1, 3, 5, 7); };
+        const Four n0 = load(&a.normals[first]), n1 = load(&a.normals[first + 2]);
+        const Four c0 = load(&a.corners[first]), c1 = load(&a.corners[first + 2]);
+        const Four nx = x(n0, n1), ny = y(n0, n1), offset = nx * x(c0, c1) + ny * y(c0, c1);
+        Four least = nx * b.corners[0].x + ny * b.corners[0].y;
+        for (int j = 1; j < b.count; ++j) {
+            const Four along = nx * b.corners[j].x + ny * b.corners[j].y;
+            least = along < least ? along : least;
+        }
+        least -= offset;
+        for (int i = 0; i < 4 && first + i < a.count; ++i)
+            if (least[i] > separation) separation = least[i], best = first + i;
     }
     return best;
 }

@@ -3,7 +3,20 @@
 
 #include "part.hpp"
 
+#include <cstring>
+
 namespace jet::physics::manifold {
+
+/// Two points or directions, or a coordinate of four.
+typedef float Four __attribute__((vector_size(16)));
+inline Four allOf(float x) { return Four{} + x; }
+inline Four load(const Vec2f* two)
+{
+    Four v;
+    std::memcpy(&v, two, sizeof v);
+    return v;
+}
+inline void store(Vec2f* two, Four v) { std::memcpy(static_cast<void*>(two), &v, sizeof v); }
 
 /// B's corners and normals in A's frame.
 struct Placed {
@@ -13,9 +26,13 @@ struct Placed {
 
     Placed(const Part& part, const Relative& at) : count(part.count), radius(part.radius)
     {
-        for (int i = 0; i < count; ++i) {
-            corners[i] = at.move + turned(at.turn, part.corners[i]);
-            normals[i] = turned(at.turn, part.normals[i]);
+        const Four along = allOf(at.turn.x), across{-at.turn.y, at.turn.y, -at.turn.y, at.turn.y};
+        const Four move{at.move.x, at.move.y, at.move.x, at.move.y};
+        // Two at a time, as turned() does it; of an odd number there is room for one more.
+        for (int i = 0; i < count; i += 2) {
+            const Four corner = load(&part.corners[i]), normal = load(&part.normals[i]);
+            store(&corners[i], move + (along * corner + across * __builtin_shufflevector(corner, corner, 1, 0, 3, 2)));
+            store(&normals[i], along * normal + across * __builtin_shufflevector(normal, normal, 1, 0, 3, 2));
         }
     }
 };

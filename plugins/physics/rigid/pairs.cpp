@@ -23,7 +23,7 @@ std::size_t KeySet::slotOf(std::uint64_t key) const
 
 bool KeySet::insert(std::uint64_t key)
 {
-    if (2 * (count_ + 1) > slots_.size()) grow();
+    if (3 * (count_ + 1) > 2 * slots_.size()) grow();
     std::size_t at = slotOf(key);
     for (; slots_[at] != kEmpty; at = (at + 1) & (slots_.size() - 1))
         if (slots_[at] == key) return false;
@@ -77,6 +77,12 @@ void KeySet::grow()
     }
 }
 
+void PairSweep::Sides::resize(std::size_t count)
+{
+    for (auto* list : {&minX, &minY, &maxX, &maxY}) list->resize(count + 4);
+    for (std::size_t k = 0; k < 4; ++k) minX[count + k] = std::numeric_limits<float>::infinity();
+}
+
 void PairSweep::resize(std::size_t parts, float typical)
 {
     if (typical_ != typical) std::fill(classes_.begin(), classes_.end(), kNoClass);
@@ -87,8 +93,8 @@ void PairSweep::resize(std::size_t parts, float typical)
     moved_.resize(parts, 1), pieceOf_.resize(parts, 0);
     classes_.resize(parts, kNoClass), cells_.resize(parts), buckets_.resize(parts), sorted_.resize(parts);
     shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
-    for (auto* list : {&minX_, &minY_, &maxX_, &maxY_}) list->resize(parts + 4);
-    for (std::size_t k = 0; k < 4; ++k) minX_[parts + k] = std::numeric_limits<float>::infinity();
+    reaches_.resize(parts, 0), sortedReaches_.resize(parts + 4);
+    now_.resize(parts), then_.resize(parts);
 }
 
 void PairSweep::setLong(Index part)
@@ -169,8 +175,10 @@ void PairSweep::sort()
     for (auto part = static_cast<Index>(boxes_.size()); part-- > 0;) {
         const Index at = --begin_[buckets_[part]];
         sorted_[at] = part;
-        const FatBox& box = boxes_[part];
-        minX_[at] = box.minX, maxX_[at] = box.maxX, minY_[at] = box.minY, maxY_[at] = box.maxY;
+        now_.set(at, boxes_[part]);
+        // Of what lies in pieces it is not known which of them met.
+        then_.set(at, pieceOf_[part] != 0 ? kNowhere : moved_[part] != 0 ? before_[part] : boxes_[part]);
+        sortedReaches_[at] = reaches_[part];
     }
 }
 
@@ -183,7 +191,7 @@ void PairSweep::finish()
 std::size_t PairSweep::bytes() const
 {
     return boxes_.capacity() *
-               (2 * sizeof(FatBox) + sizeof(std::uint64_t) + 3 * sizeof(Index) + 4 * sizeof(float) + 2) +
+               (2 * sizeof(FatBox) + sizeof(std::uint64_t) + 3 * sizeof(Index) + 10 * sizeof(float) + 2) +
            begin_.capacity() * sizeof(Index);
 }
 

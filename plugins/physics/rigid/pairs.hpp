@@ -46,6 +46,13 @@ public:
         boxes_[part] = to;
         moved_[part] = 1;
     }
+    /// Units to its farthest point.
+    void setReach(Index part, float reach) { reaches_[part] = reach; }
+    /// Is one of them so long that its box meets much that it does not?
+    bool isLonger(Index a, Index b) const
+    {
+        return reaches_[a] > kLonger * reaches_[b] || reaches_[b] > kLonger * reaches_[a];
+    }
     /// A long part: its box is large, but only what meets one of these pieces of it is met.
     void setLong(Index part);
     std::vector<FatBox>* piecesOf(Index part) { return pieceOf_[part] == 0 ? nullptr : &pieces_[pieceOf_[part]]; }
@@ -69,9 +76,9 @@ public:
     }
     /// A sweep: begin, seek all parts, finish; then nothing counts as moved.
     void begin() { sort(); }
-    /// Calls found(a, b, met) for each pair of boxes that meet and of which one was moved, if that one is of
-    /// [first, last); different parts may be sought at once. `met`: they did so before they were moved, too. Pairs of
-    /// long parts may come more than once.
+    /// Calls found(a, b) for each pair of boxes that meet, of which one was moved, and that did not meet before, if
+    /// that one is of [first, last); different parts may be sought at once. Boxes of long parts meet before they do:
+    /// their pairs come each time, even repeatedly.
     template <class Found>
     void seek(std::size_t first, std::size_t last, Found&& found) const
     {
@@ -100,6 +107,7 @@ private:
     static constexpr int kClasses = 8, kLast = kClasses - 1;
     static constexpr std::uint8_t kNoClass = 255, kAbsent = kClasses;
     static constexpr int kColumnsPerCell = 4;
+    static constexpr float kLonger = 3;
     static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
     static constexpr FatBox kNowhere{3e38F, 3e38F, -3e38F, -3e38F};
 
@@ -204,36 +212,63 @@ private:
     void scan(Index part, const FatBox& box, std::size_t first, std::size_t last, std::uint64_t cell,
               Found&& found) const
     {
+        const FatBox& was = pieceOf_[part] != 0 ? kNowhere : before_[part];
         for (std::size_t j = first; j < last; j += 4) {
-            // The lists are padded by boxes at infinity.
-            unsigned hits = near(j, box);
+            unsigned hits = near(now_, j, box);
             if (last - j < 4) hits &= (1U << (last - j)) - 1;
+            if (hits == 0) continue;
+            hits &= ~near(then_, j, was) | longer(j, part);
             for (; hits != 0; hits &= hits - 1) {
                 const Index other = sorted_[j + static_cast<std::size_t>(__builtin_ctz(hits))];
                 if (other == part || (moved_[other] != 0 && other < part)) continue;
                 if (cell != kUnknown && cells_[other] != cell) continue;
                 if (pieceOf_[other] != 0 && !meetsPieces(other, box)) continue;
-                const FatBox& was = moved_[other] != 0 ? before_[other] : boxes_[other];
-                const bool met = was.meets(before_[part]) && pieceOf_[part] == 0 && pieceOf_[other] == 0;
-                found(std::min(part, other), std::max(part, other), met);
+                found(std::min(part, other), std::max(part, other));
             }
         }
     }
+    /// Boxes in the order of sorted_, padded by some at infinity.
+    struct Sides {
+        std::vector<float> minX, minY, maxX, maxY;
+        void resize(std::size_t count);
+        void set(std::size_t at, const FatBox& box)
+        {
+            minX[at] = box.minX, maxX[at] = box.maxX, minY[at] = box.minY, maxY[at] = box.maxY;
+        }
+    };
     /// A bit for each of four boxes that meets the box.
-    unsigned near(std::size_t first, const FatBox& box) const
+    static unsigned near(const Sides& boxes, std::size_t first, const FatBox& box)
     {
 #if defined(__SSE2__)
-        const __m128 x = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&minX_[first]), _mm_set1_ps(box.maxX)),
-                                    _mm_cmpge_ps(_mm_loadu_ps(&maxX_[first]), _mm_set1_ps(box.minX)));
-        const __m128 y = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&minY_[first]), _mm_set1_ps(box.maxY)),
-                                    _mm_cmpge_ps(_mm_loadu_ps(&maxY_[first]), _mm_set1_ps(box.minY)));
+        const __m128 x = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&boxes.minX[first]), _mm_set1_ps(box.maxX)),
+                                    _mm_cmpge_ps(_mm_loadu_ps(&boxes.maxX[first]), _mm_set1_ps(box.minX)));
+        const __m128 y = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&boxes.minY[first]), _mm_set1_ps(box.maxY)),
+                                    _mm_cmpge_ps(_mm_loadu_ps(&boxes.maxY[first]), _mm_set1_ps(box.minY)));
         return static_cast<unsigned>(_mm_movemask_ps(_mm_and_ps(x, y)));
 #else
         unsigned bits = 0;
-        for (std::size_t k = 0; k < 4; ++k)
-            bits |= static_cast<unsigned>((minX_[first + k] <= box.maxX) & (maxX_[first + k] >= box.minX) &
-                                          (minY_[first + k] <= box.maxY) & (maxY_[first + k] >= box.minY))
-                    << k;
+        for (std::size_t k = first; k < first + 4; ++k)
+            bits |= static_cast<unsigned>((boxes.minX[k] <= box.maxX) & (boxes.maxX[k] >= box.minX) &
+                                          (boxes.minY[k] <= box.maxY) & (boxes.maxY[k] >= box.minY))
+                    << (k - first);
+        return bits;
+#endif
+    }
+    /// A bit for each of four parts that is much longer than the part, or the part than it.
+    unsigned longer(std::size_t first, Index part) const
+    {
+        const float reach = reaches_[part];
+#if defined(__SSE2__)
+        const __m128 others = _mm_loadu_ps(&sortedReaches_[first]), factor = _mm_set1_ps(kLonger);
+        return static_cast<unsigned>(
+            _mm_movemask_ps(_mm_or_ps(_mm_cmpgt_ps(others, _mm_set1_ps(kLonger * reach)),
+                                      _mm_cmplt_ps(_mm_mul_ps(factor, others), _mm_set1_ps(reach)))));
+#else
+        unsigned bits = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const float other = sortedReaches_[first + k];
+            bits |= static_cast<unsigned>((other > kLonger * reach) | (kLonger * other < reach)) << k;
+        }
         return bits;
 #endif
     }
@@ -251,8 +286,9 @@ private:
     std::size_t hashed_ = 0;             // first bucket of hashed cells
     int shift_ = 63;                     // of a product of 64 bits, to the number of a hash
     Grid grids_[kClasses];
-    std::vector<Index> sorted_;                     // parts, bucket by bucket
-    std::vector<float> minX_, minY_, maxX_, maxY_;  // in the order of sorted_
+    std::vector<Index> sorted_;                   // parts, bucket by bucket
+    std::vector<float> reaches_, sortedReaches_;  // [parts], in the order of sorted_
+    Sides now_, then_;                            // boxes, and those before they were moved
 };
 
 }  // namespace jet::physics

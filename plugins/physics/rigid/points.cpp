@@ -60,7 +60,7 @@ bool Collider::fromBehind(const RigidContact& c) const
 
 Collider::Look Collider::update(RigidContact& c, double dt)
 {
-    c.due = c.hits = false;
+    c.due = false;
     if (!sweep_.box(c.partA).meets(sweep_.box(c.partB))) return {.kept = false};
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
     const Relative at = relative(c.bodyA, c.bodyB);
@@ -81,8 +81,9 @@ Collider::Look Collider::update(RigidContact& c, double dt)
         decideSide(c);
     }
     // What overlaps from a hit before is hit again.
-    c.hits = c.foreseen || (fast_ && c.nearest() <= 0 && travel > kFast * shorter);
-    return {.hits = c.hits};
+    const bool hits = c.foreseen || (fast_ && c.nearest() <= 0 && travel > kFast * shorter);
+    if (hits) hits_[static_cast<std::size_t>(&c - contacts_.data())] = 1;
+    return {.hits = hits};
 }
 
 std::uint32_t Collider::sift(const Index* which, std::size_t count, double dt, const Sieve& sieve)
@@ -101,7 +102,7 @@ std::uint32_t Collider::sift(const Index* which, std::size_t count, double dt, c
     for (std::uint32_t rest = apart; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
         RigidContact& c = contacts_[lanes[lane]];
-        c.due = c.hits = false;
+        c.due = false;
         noteGap(c, gaps[lane]);
     }
     return apart;
