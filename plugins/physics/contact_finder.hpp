@@ -46,7 +46,7 @@ private:
     std::vector<Motion> motions_;
     std::vector<double> budgets_;            // [bodies] units a node may stray
     std::vector<Vec2> position_, velocity_;  // [nodes] at the last find()
-    std::vector<double> angle_, omega_;
+    Column<double> angle_{0}, omega_{0};
     std::vector<std::pair<Index, Index>> excluded_;
     std::vector<BodyPair> pairs_, softPairs_;
     std::vector<std::uint8_t> read_;  // [bodies] soft bodies whose corners and grid are as of this find()

@@ -35,6 +35,7 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
     const double linear = settings.applyDamping ? decay(settings.linearDamping * h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * h) : 1;
     springs.accelerate(state, h, settings.applyGravity ? settings.gravity : Vec2(0, 0), linear, pushed);
+    const bool anyForces = nodes.force.size() == nodes.size();
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         const Vec2 gravity = settings.applyGravity ? Vec2(body.gravityScale * settings.gravity) : Vec2(0, 0);
@@ -42,9 +43,9 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
         if (body.nodes.count == 0) continue;
         if (!body.rigid) {
             if (!springs.isWide(handle))
-                springs.kernels().accelerate(nodes.velocity[first].data(), nodes.force[first].data(),
-                                             &nodes.invMass[first], body.nodes.count,
-                                             {h, gravity.x(), gravity.y(), linear}, nullptr);
+                springs.kernels().accelerate(nodes.velocity[first].data(),
+                                             anyForces ? nodes.force[first].data() : nullptr, &nodes.invMass[first],
+                                             body.nodes.count, {h, gravity.x(), gravity.y(), linear}, nullptr);
             if (angular != 1 && !body.fixed) dampTurning(nodes, body, angular);
             continue;
         }

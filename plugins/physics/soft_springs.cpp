@@ -78,7 +78,9 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         if (!tear_.empty() || mesh.tears) tear_.push_back(std::max(spring.tearRatio, 0.0));
         alive_.push_back(spring.a != spring.b);
     }
-    if (fitsKernels(def)) {
+    const bool wide = fitsKernels(def);
+    anyOneByOne_ |= !wide && count > 0;
+    if (wide) {
         mesh.wide = true;
         mesh.topology = soft::Topology::of(def);
         measureBias(state, mesh);
@@ -381,7 +383,7 @@ soft::Planes SoftSprings::planes(const soft::Batch& batch)
 void SoftSprings::accelerate(State& state, double h, const Vec2& gravity, double kept, bool pushed)
 {
     Nodes& nodes = state.nodes;
-    double *velocity = nodes.velocity.data()->data(), *force = pushed ? nodes.force.data()->data() : nullptr;
+    double *velocity = nodes.velocity.data()->data(), *force = pushed ? nodes.force.values().data()->data() : nullptr;
     for (soft::Batch& batch : batches_) {
         std::array<soft::Frame, soft::kLanes> frames;
         std::array<soft::VelocityStep, soft::kLanes> steps;

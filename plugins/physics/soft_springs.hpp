@@ -51,6 +51,7 @@ public:
     /// The others: changes the velocities of their bodies over h, by springs, gravity and damping (`kept`: the part it
     /// leaves), and by the forces on the nodes where there are any (`pushed`); those are used up.
     void accelerate(State&, double h, const Vec2& gravity, double kept, bool pushed);
+    bool anyOneByOne() const { return anyOneByOne_; }
     /// Is the body one of those that accelerate() moves?
     bool isWide(Index body) const { return meshes_[body].wide; }
     /// Changes velocities by the impulses of angular springs over h. `backwards` alternates, so that no end of the list
@@ -146,6 +147,7 @@ private:
     std::vector<Mesh> meshes_;  // [bodies]; rigid ones have no springs
     std::vector<soft::Batch> batches_;
     bool arranged_ = false;  // do the batches hold all bodies?
+    bool anyOneByOne_ = false;
     bool anyTorn_ = false;
     std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;

@@ -4,19 +4,20 @@
 
 namespace jet::physics {
 
-void Nodes::add(Index ofBody, const Vec2& at, double nodeMass, double inverseMass, double inverseInertia)
+void Nodes::addParticle(Index ofBody, const Vec2& at, double nodeMass, double inverseMass)
 {
     position.push_back(at);
     velocity.push_back(Vec2(0, 0));
-    angle.push_back(0);
-    omega.push_back(0);
-    rotation.push_back(Vec2(1, 0));
     mass.push_back(nodeMass);
     invMass.push_back(inverseMass);
-    invInertia.push_back(inverseInertia);
-    force.push_back(Vec2(0, 0));
-    torque.push_back(0);
     body.push_back(ofBody);
+}
+
+void Nodes::addRigid(Index ofBody, double nodeMass)
+{
+    addParticle(ofBody, Vec2(0, 0), nodeMass, 0);
+    for (Column<double>* column : {&angle, &omega, &invInertia, &torque}) column->cover(size());
+    for (Column<Vec2>* column : {&rotation, &force}) column->cover(size());
 }
 
 void updatePoints(State& state)

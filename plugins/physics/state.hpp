@@ -5,6 +5,7 @@
 // A wall joins two points of one border. Handles of bodies, nodes, points and walls are indices into these arrays.
 #pragma once
 
+#include "column.hpp"
 #include "edge_grid.hpp"
 #include "trigonometry.hpp"
 
@@ -22,18 +23,21 @@ inline constexpr Index kNone = 0xffffffffU;
 struct Nodes {
     std::vector<Vec2> position;      // scene units
     std::vector<Vec2> velocity;      // units / s
-    std::vector<double> angle;       // radians since the start; 0 for particles
-    std::vector<double> omega;       // rad / s; 0 for particles
-    std::vector<Vec2> rotation;      // (cos, sin) of angle
     std::vector<double> mass;        // mass units
     std::vector<double> invMass;     // 0: never moves
-    std::vector<double> invInertia;  // 0: never turns
-    std::vector<Vec2> force;         // of applyForce and actuators, for this step
-    std::vector<double> torque;
     std::vector<Index> body;
+    // Only rows up to that of the last rigid body.
+    Column<double> angle{0};                  // radians since the start; 0 for particles
+    Column<double> omega{0};                  // rad / s; 0 for particles
+    Column<Vec2> rotation{Vec2(1, 0)};        // (cos, sin) of angle
+    Column<double> invInertia{0};             // 0: never turns
+    Column<double> torque{0};
+    Column<Vec2> force{Vec2(0, 0)};  // of applyForce and actuators, for this step; rows of particles once there are any
 
     std::size_t size() const { return position.size(); }
-    void add(Index ofBody, const Vec2& at, double nodeMass, double inverseMass, double inverseInertia);
+    void addParticle(Index ofBody, const Vec2& at, double nodeMass, double inverseMass);
+    /// One that may turn, and does not move yet.
+    void addRigid(Index ofBody, double nodeMass);
 
     Vec2 velocityAt(Index node, const Vec2& arm) const { return velocity[node] + omega[node] * perpendicular(arm); }
     void applyImpulse(Index node, const Vec2& arm, const Vec2& impulse)
@@ -45,7 +49,7 @@ struct Nodes {
 
 struct Points {
     std::vector<Index> node;
-    std::vector<Vec2> local;     // from the node, in its frame; zero for particles
+    Column<Vec2> local{Vec2(0, 0)};  // from the node, in its frame; zero for particles, which have rows only before others
     std::vector<Vec2> position;  // scene units; true after updatePoints()
     // [points] unit, out of the body at this point, in the frame of its grid; zero when unknown. Empty as long as
     // nobody is met by points and walls.
@@ -132,7 +136,7 @@ struct State {
     /// Wall ends in the frame of the body's grid.
     const std::vector<Vec2>& gridFrame(const BodyRecord& body) const
     {
-        return body.rigid ? points.local : points.position;
+        return body.rigid ? points.local.values() : points.position;
     }
 };
 

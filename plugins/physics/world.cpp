@@ -44,8 +44,8 @@ void World::addPoint(Index node, const Vec2& local, const Vec2& position)
 {
     Points& points = state_.points;
     points.node.push_back(node);
-    points.local.push_back(local);
     points.position.push_back(position);
+    if (state_.bodies.back().rigid) points.local.cover(points.size()), points.local[points.size() - 1] = local;
     points.collidable.push_back(0);
     if (!points.normal.empty()) points.normal.push_back(Vec2(0, 0));
 }
@@ -86,10 +86,9 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     const auto count = static_cast<Index>(def.particles.size());
     body.nodes.count = body.points.count = count;
     Nodes& nodes = state_.nodes;
-    makeRoom(count, nodes.position, nodes.velocity, nodes.angle, nodes.omega, nodes.rotation, nodes.mass, nodes.invMass,
-             nodes.invInertia, nodes.force, nodes.torque, nodes.body, stepForces_);
+    makeRoom(count, nodes.position, nodes.velocity, nodes.mass, nodes.invMass, nodes.body);
     Points& points = state_.points;
-    makeRoom(count, points.node, points.local, points.position, points.collidable);
+    makeRoom(count, points.node, points.position, points.collidable);
     if (!points.normal.empty()) makeRoom(count, points.normal);
     // Points keep the order of the definition; nodes take one that suits the springs.
     const std::vector<Index> particleOf = soft::orderOf(def);
@@ -97,7 +96,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     for (Index k = 0; k < count; ++k) {
         const Index i = particleOf[k];
         const bool moves = !def.common.fixed && (def.movable.empty() || def.movable[i] != 0);
-        state_.nodes.add(handle, def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0, 0);
+        state_.nodes.addParticle(handle, def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0);
         nodeOf[i] = body.nodes.first + k;
     }
     for (Index i = 0; i < count; ++i) addPoint(nodeOf[i], Vec2(0, 0), def.particles[i]);
@@ -135,13 +134,12 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     BodyRecord& body = newBody(def.common, true);
     body.nodes.count = 1;
     Nodes& nodes = state_.nodes;
-    makeRoom(1, nodes.position, nodes.velocity, nodes.angle, nodes.omega, nodes.rotation, nodes.mass, nodes.invMass,
-             nodes.invInertia, nodes.force, nodes.torque, nodes.body, stepForces_);
-    nodes.add(handle, Vec2(0, 0), def.mass, 0, 0);
+    makeRoom(1, nodes.position, nodes.velocity, nodes.mass, nodes.invMass, nodes.body);
+    nodes.addRigid(handle, def.mass);
     Points& points = state_.points;
     std::vector<std::vector<Index>> rings;
     for (const auto& border : outlinesOf(def)) {
-        makeRoom(border.size(), points.node, points.local, points.position, points.collidable);
+        makeRoom(border.size(), points.node, points.position, points.collidable);
         auto& ring = rings.emplace_back(border.size());
         std::iota(ring.begin(), ring.end(), static_cast<Index>(state_.points.size()));
         for (const Vec2& at : border) addPoint(body.nodes.first, at, at);
@@ -212,7 +210,6 @@ BodyHandle World::finishBody(const BodyCommon& common)
     readings.omega.push_back(0);
     readings.bounds.push_back(Box());
     readings.firstPoint.push_back(static_cast<Index>(state_.points.size()));
-    stepForces_.resize(state_.nodes.size(), Vec2(0, 0));
     rate_ = -1;
     untold_ = true;
     updateReading(state_, handle);

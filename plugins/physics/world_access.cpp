@@ -46,6 +46,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
     const BodyRecord& body = state_.bodies[handle];
     if (force == Vec2(0, 0)) return;
     pushed_ = true;
+    stepForces_.cover(state_.nodes.size());
     rigid_.wake(state_, handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         stepForces_[n] += state_.nodes.mass[n] / body.mass * force;
@@ -134,10 +135,10 @@ void World::archive(Self& self, Archive& with)
     auto& nodes = self.state_.nodes;
     with(nodes.position);
     with(nodes.velocity);
-    with(nodes.angle);
-    with(nodes.omega);
-    with(nodes.rotation);
-    with(nodes.mass), with(nodes.invMass), with(nodes.invInertia);
+    with(nodes.angle.values());
+    with(nodes.omega.values());
+    with(nodes.rotation.values());
+    with(nodes.mass), with(nodes.invMass), with(nodes.invInertia.values());
     self.rigid_.archive(with);
     with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
     self.springs_.archive(with);
@@ -153,7 +154,7 @@ void World::archive(Self& self, Archive& with)
         with(body.enabled), with(body.kinematic), with(body.drives), with(body.fixedRotation);
     }
     self.archivePins(with);
-    with(self.stepForces_);
+    with.list(self.stepForces_.values(), [&](Vec2& force) { with(force); });
     with(self.settings_.gravity);
     with.list(self.contacts_.points, [&](ContactPoint& c) {
         with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.active), with(c.engaged), with(c.along);

@@ -118,7 +118,7 @@ bool World::skipStep()
     stats_ = StepStats();
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());
     rigid_.skip(stats_);
-    if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
+    if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
     return true;
 }

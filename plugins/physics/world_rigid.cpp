@@ -10,16 +10,18 @@ bool World::onlySimple() const { return complex_ == 0 && !rigid_.empty() && !act
 
 void World::stepSimple(double dt)
 {
-    state_.nodes.force = stepForces_;
-    std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
+    std::vector<Vec2>& force = state_.nodes.force.values();
+    std::vector<double>& torque = state_.nodes.torque.values();
+    for (Index n = 0; n < force.size(); ++n) force[n] = std::as_const(stepForces_)[n];
+    std::fill(torque.begin(), torque.end(), 0.0);
     if (actuators_.any()) actuators_.addForces(state_);
     if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
     rigid_.step(state_, settings_, dt, stats_);
     limitVelocities(state_);
     restIfDue(dt);
-    std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
-    std::fill(state_.nodes.force.begin(), state_.nodes.force.end(), Vec2(0, 0));
-    std::fill(state_.nodes.torque.begin(), state_.nodes.torque.end(), 0.0);
+    std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
+    std::fill(force.begin(), force.end(), Vec2(0, 0));
+    std::fill(torque.begin(), torque.end(), 0.0);
     contacts_.points.clear();
     stale_ = untold_ = true;
 }

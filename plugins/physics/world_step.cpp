@@ -41,10 +41,10 @@ void World::step(double dt)
     islandsKnown_ = false;
     queries_.outdate();
     const int parts = static_cast<int>(std::min(std::ceil(dt / kLongestPart - 1e-9), kMostParts));
-    const std::vector<Vec2> forces = parts > 1 ? stepForces_ : std::vector<Vec2>();
+    const std::vector<Vec2> forces = parts > 1 ? stepForces_.values() : std::vector<Vec2>();
     const bool pushed = pushed_;
     for (int i = 0; i < parts; ++i) {
-        if (i > 0) stepForces_ = forces, pushed_ = pushed;
+        if (i > 0) stepForces_.values() = forces, pushed_ = pushed;
         stepPart(dt / parts);
     }
 }
@@ -97,7 +97,7 @@ void World::stepPart(double dt)
         substep(h, i, count);
         if (i + 1 == count) rigid_.finish(state_, true);
     }
-    if (pushed_) std::fill(stepForces_.begin(), stepForces_.end(), Vec2(0, 0));
+    if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
     restIfDue(dt);
     springs_.flow(state_, dt);
@@ -132,13 +132,13 @@ void World::substep(double h, int index, int count)
     softContacts_.refresh(state_, h, gravity);
     {
         const Stopwatch watch(stats_.springsMs);
-        if (pushed_)
-            for (Index n = 0; n < state_.nodes.size(); ++n) state_.nodes.force[n] += stepForces_[n];
+        const bool pushed = pushed_ || plain_ || actuators_.any() || fields_.count() > 0;
+        if (pushed || springs_.anyOneByOne()) state_.nodes.force.cover(state_.nodes.size());
+        for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);
         if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
         springs_.addForces(state_);
         if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
-        const bool pushed = pushed_ || plain_ || actuators_.any() || fields_.count() > 0;
         integrateVelocities(state_, settings_, springs_, h, pushed);
         const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
