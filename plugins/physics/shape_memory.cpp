@@ -101,7 +101,7 @@ void ShapeMemory::add(const State& state, const SoftBodyDef& def, BodyHandle han
         const bool whole = count == def.particles.size();
         lattice.tolerance = kTolerance * std::sqrt(lattice.inertia / lattice.mass);
         lattice.rate = kStiffness * springs[group].rates / static_cast<double>(count);
-        if (whole) lattice.nodes = {}, lattice.rest = {};
+        if (whole) lattice.nodes = std::vector<Index>(), lattice.rest = std::vector<Vec2>();
         if (lattice.inertia > 0) lattices_.push_back(std::move(lattice));
     }
 }

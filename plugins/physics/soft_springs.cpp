@@ -2,6 +2,7 @@
 
 #include "room.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
@@ -64,18 +65,14 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
     mesh.springs = {springCount(), static_cast<Index>(def.springs.size())};
     for (const SpringDef& spring : def.springs) mesh.tears |= spring.tearRatio > 0;
     const std::size_t count = def.springs.size();
-    makeRoom(count, a_, b_, rest_, ks_, kd_, alive_);
+    makeRoom(count, a_, b_, rest_, kind_, alive_);
     if (!drawn_.empty()) makeRoom(count, drawn_);
-    if (mesh.tears) tear_.resize(a_.size(), 0);
-    if (mesh.tears || !tear_.empty()) makeRoom(count, tear_);
     for (const SpringDef& spring : def.springs) {
         a_.push_back(nodeOf[spring.a]);
         b_.push_back(nodeOf[spring.b]);
         rest_.push_back(spring.restLength);
         if (!drawn_.empty()) drawn_.push_back(spring.restLength);
-        ks_.push_back(spring.ks);
-        kd_.push_back(spring.kd);
-        if (!tear_.empty() || mesh.tears) tear_.push_back(std::max(spring.tearRatio, 0.0));
+        kind_.push_back(kindLike(spring));
         alive_.push_back(spring.a != spring.b);
     }
     const bool wide = fitsKernels(def);
@@ -87,6 +84,20 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         arranged_ = false;
     }
     for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
+}
+
+/// One of the last kinds, where the spring is like it; else a new one.
+Index SoftSprings::kindLike(const SpringDef& spring)
+{
+    constexpr std::size_t kTried = 16;
+    const Kind kind{spring.ks, spring.kd, std::max(spring.tearRatio, 0.0)};
+    const std::size_t oldest = kinds_.size() > kTried ? kinds_.size() - kTried : 0;
+    for (std::size_t k = kinds_.size(); k-- > oldest;)
+        if (kinds_[k].ks == kind.ks && kinds_[k].kd == kind.kd && kinds_[k].tearRatio == kind.tearRatio)
+            return static_cast<Index>(k);
+    makeRoom(1, kinds_);
+    kinds_.push_back(kind);
+    return static_cast<Index>(kinds_.size() - 1);
 }
 
 void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, const Mesh& mesh) const
@@ -213,11 +224,6 @@ void SoftSprings::watchTears(soft::Batch& batch)
     };
     if (!batch.tear.empty() || std::none_of(batch.bodies.begin(), batch.bodies.end(), tears)) return;
     batch.tear.assign(batch.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
-    batch.springAt.assign(batch.tear.size(), kNone);
-    for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
-        const Range& springs = meshes_[batch.bodies[lane]].springs;
-        for (Index i = 0; i < springs.count; ++i) batch.springAt[batch.seat(lane, i)] = springs.first + i;
-    }
 }
 
 void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf)
@@ -249,6 +255,7 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
         bounds.reset(mesh.nodes);
         addTo(bounds, state, mesh);
     }
+    for (std::vector<double>* scratch : {&load_, &weight_, &matrix_}) *scratch = std::vector<double>();
     for (const Angular& spring : angular_) {
         const double rate = spring.ks * spring.restCompliance;
         for (Index node : {spring.a, spring.centre, spring.b}) bounds.add(node, rate);
@@ -267,6 +274,7 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
         if (!plain) prepareMesh(state, bounds, mesh, h);
         fill(mesh);
     }
+    for (std::vector<double>* scratch : {&stiffness_, &damping_, &load_}) *scratch = std::vector<double>();
     if (plain) return;
     for (Angular& spring : angular_) {
         const double share =
@@ -436,7 +444,7 @@ void SoftSprings::pull(State& state, soft::Batch& batch, std::span<const soft::F
                                              blocks.ends.size() / (2 * soft::kLanes), batch.coefficients.data(),
                                              batch.tear.empty() ? nullptr : batch.tear.data(), tornBlocks_.data()},
                                             planes);
-    for (std::size_t i = 0; i < torn; ++i) tearIn(state, batch, tornBlocks_[i]);
+    if (torn > 0) tearIn(state, batch, {tornBlocks_.data(), torn});
 }
 
 /// Lanes without a body stand for the first.
@@ -445,17 +453,20 @@ Index SoftSprings::bodyOf(const soft::Batch& batch, Index lane) const
     return batch.bodies[lane < batch.bodies.size() ? lane : 0];
 }
 
-/// The kernels only warn: whether a spring of the block is too long is decided in double, so that it tears at exactly
-/// its length. Its last force, of a length that differs by rounding, still acts.
-void SoftSprings::tearIn(const State& state, soft::Batch& batch, std::size_t block)
+/// The kernels only warn, of blocks in ascending order: whether a spring of one is too long is decided in double, so
+/// that it tears at exactly its length. Its last force, of a length that differs by rounding, still acts.
+void SoftSprings::tearIn(const State& state, const soft::Batch& batch, std::span<const std::uint32_t> blocks)
 {
-    for (Index lane = 0; lane < soft::kLanes; ++lane) {
-        const Index i = batch.springAt[block * soft::kLanes + lane];
-        if (i == kNone || !alive_[i]) continue;
-        Mesh& mesh = meshes_[bodyOf(batch, batch.alike() ? lane : 0)];
-        if (!(tearLength(mesh, i) > 0)) continue;
-        const double length = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm();
-        if (length > tearLength(mesh, i)) tear(mesh, i);
+    for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
+        Mesh& mesh = meshes_[batch.bodies[lane]];
+        for (Index k = 0; k < mesh.springs.count; ++k) {
+            const std::uint32_t block = batch.seat(lane, k) / soft::kLanes;
+            if (!std::binary_search(blocks.begin(), blocks.end(), block)) continue;
+            const Index i = mesh.springs.first + k;
+            if (!alive_[i] || !(tearLength(mesh, i) > 0)) continue;
+            const double length = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm();
+            if (length > tearLength(mesh, i)) tear(mesh, i);
+        }
     }
 }
 

@@ -97,6 +97,10 @@ private:
         double stiffness = 0;   // ks after softening
         double damping = 0;     // kd and what softening adds
     };
+    struct Kind {
+        double ks = 0, kd = 0;
+        double tearRatio = 0;  // times the rest length as drawn; 0: never
+    };
     /// Springs of one body.
     struct Mesh {
         Range nodes, springs;
@@ -112,14 +116,15 @@ private:
     };
 
     void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf);
-    double stiffnessOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.ks : ks_[i]; }
-    double dampingOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.kd : kd_[i]; }
+    double stiffnessOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.ks : kindOf(i).ks; }
+    double dampingOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.kd : kindOf(i).kd; }
     /// Length at which the spring tears; 0: never.
     double tearLength(const Mesh& mesh, Index i) const
     {
-        return (mesh.uniform ? mesh.tearRatio : tearRatio(i)) * (drawn_.empty() ? rest_[i] : drawn_[i]);
+        return (mesh.uniform ? mesh.tearRatio : kindOf(i).tearRatio) * (drawn_.empty() ? rest_[i] : drawn_[i]);
     }
-    double tearRatio(Index i) const { return tear_.empty() ? 0 : tear_[i]; }
+    const Kind& kindOf(Index i) const { return kinds_[kind_[i]]; }
+    Index kindLike(const SpringDef&);
     void addTo(StiffnessBounds&, const State&, const Mesh&) const;
     void weigh(StiffnessBounds&, const State&, const Mesh&);
     double provenRate(const State&, const Mesh&, double rate);
@@ -133,15 +138,16 @@ private:
     void pull(State&, soft::Batch&, std::span<const soft::Frame> frames, const soft::Planes&);
     soft::Planes planes(const soft::Batch&);
     void pullOneByOne(State&, Mesh&);
-    void tearIn(const State&, soft::Batch&, std::size_t block);
+    void tearIn(const State&, const soft::Batch&, std::span<const std::uint32_t> blocks);
     void tear(Mesh&, Index spring);
     Index bodyOf(const soft::Batch&, Index lane) const;
     void applyAngularSpring(State&, Angular&, double h);
 
     const soft::Kernels* kernels_ = &soft::bestKernels();
     std::vector<Index> a_, b_;  // nodes
-    std::vector<double> rest_, ks_, kd_;
-    std::vector<double> tear_;   // times the rest length as drawn, 0 = never; empty: none tears
+    std::vector<double> rest_;
+    std::vector<Index> kind_;  // into kinds_: most springs of a body are alike
+    std::vector<Kind> kinds_;
     std::vector<double> drawn_;  // rest lengths before any flow; empty: none flowed
     std::vector<std::uint8_t> alive_;
     std::vector<Mesh> meshes_;  // [bodies]; rigid ones have no springs
@@ -151,7 +157,7 @@ private:
     bool anyTorn_ = false;
     std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;
-    // Scratch of the body or batch at work.
+    // Scratch of the body or batch at work; that of preparing is given back.
     std::vector<float> planes_;
     std::vector<std::uint32_t> tornBlocks_;
     std::vector<double> stiffness_, damping_, load_, weight_, matrix_;

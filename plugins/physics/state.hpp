@@ -21,16 +21,16 @@ using Index = std::uint32_t;
 inline constexpr Index kNone = 0xffffffffU;
 
 struct Nodes {
-    std::vector<Vec2> position;      // scene units
-    std::vector<Vec2> velocity;      // units / s
-    std::vector<double> mass;        // mass units
-    std::vector<double> invMass;     // 0: never moves
+    std::vector<Vec2> position;   // scene units
+    std::vector<Vec2> velocity;   // units / s
+    std::vector<double> mass;     // mass units
+    std::vector<double> invMass;  // 0: never moves
     std::vector<Index> body;
     // Only rows up to that of the last rigid body.
-    Column<double> angle{0};                  // radians since the start; 0 for particles
-    Column<double> omega{0};                  // rad / s; 0 for particles
-    Column<Vec2> rotation{Vec2(1, 0)};        // (cos, sin) of angle
-    Column<double> invInertia{0};             // 0: never turns
+    Column<double> angle{0};            // radians since the start; 0 for particles
+    Column<double> omega{0};            // rad / s; 0 for particles
+    Column<Vec2> rotation{Vec2(1, 0)};  // (cos, sin) of angle
+    Column<double> invInertia{0};       // 0: never turns
     Column<double> torque{0};
     Column<Vec2> force{Vec2(0, 0)};  // of applyForce and actuators, for this step; rows of particles once there are any
 
@@ -49,7 +49,8 @@ struct Nodes {
 
 struct Points {
     std::vector<Index> node;
-    Column<Vec2> local{Vec2(0, 0)};  // from the node, in its frame; zero for particles, which have rows only before others
+    Column<Vec2> local{
+        Vec2(0, 0)};             // from the node, in its frame; zero for particles, which have rows only before others
     std::vector<Vec2> position;  // scene units; true after updatePoints()
     // [points] unit, out of the body at this point, in the frame of its grid; zero when unknown. Empty as long as
     // nobody is met by points and walls.

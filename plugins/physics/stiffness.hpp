@@ -30,6 +30,8 @@
 
 #include "state.hpp"
 
+#include <limits>
+
 namespace jet::physics {
 
 /// h² S + 2 h D a substep is chosen for. Below 2, because springs under pressure bend more than the bound knows.
@@ -39,8 +41,8 @@ class StiffnessBounds {
 public:
     void reset(std::size_t nodes)
     {
-        elastic_.assign(nodes, 0.0);
-        damping_.assign(nodes, 0.0);
+        elastic_.assign(nodes, 0.0F);
+        damping_.assign(nodes, 0.0F);
         weight_.assign(nodes, 1.0F);
     }
     /// Nodes to which nothing has been added.
@@ -57,15 +59,15 @@ public:
     }
     void add(Index node, double rate)
     {
-        if (node != kNone) elastic_[node] += rate;
+        if (node != kNone) elastic_[node] = single(elastic(node) + rate);
     }
-    void addDamping(Index node, double rate) { damping_[node] += rate; }
+    void addDamping(Index node, double rate) { damping_[node] = single(damping(node) + rate); }
 
     /// rad / s; no spring network of these nodes swings faster.
     double fastest(Range nodes) const
     {
         double most = 0;
-        for (Index n = nodes.first; n < nodes.end(); ++n) most = std::max(most, elastic_[n]);
+        for (Index n = nodes.first; n < nodes.end(); ++n) most = std::max(most, elastic(n));
         return std::sqrt(2 * most);
     }
     /// Substeps a second at which every spring and damper of these nodes may act as it is.
@@ -73,22 +75,28 @@ public:
     {
         double most = 0;
         for (Index n = nodes.first; n < nodes.end(); ++n)
-            most = std::max(most, damping_[n] + std::sqrt(damping_[n] * damping_[n] + kStableLoad * elastic_[n]));
+            most = std::max(most, damping(n) + std::sqrt(damping(n) * damping(n) + kStableLoad * elastic(n)));
         return most / kStableLoad;
     }
-    double elastic(Index node) const { return elastic_[node]; }
-    double damping(Index node) const { return damping_[node]; }
+    double elastic(Index node) const { return static_cast<double>(elastic_[node]); }
+    double damping(Index node) const { return static_cast<double>(damping_[node]); }
     /// The part of the stiffness a spring at this node may keep at substep h.
     double share(Index node, double h) const
     {
-        const double product = node == kNone ? 0 : elastic_[node] * h * h;
+        const double product = node == kNone ? 0 : elastic(node) * h * h;
         return product > 1 ? 1 / product : 1;
     }
 
 private:
-    std::vector<double> elastic_;  // S, 1 / s²
-    std::vector<double> damping_;  // D, 1 / s
-    std::vector<float> weight_;    // w
+    /// Rounding is covered by kStableLoad; nothing is stiffer than the greatest.
+    static float single(double rate)
+    {
+        return static_cast<float>(std::min(rate, static_cast<double>(std::numeric_limits<float>::max())));
+    }
+
+    std::vector<float> elastic_;  // S, 1 / s²
+    std::vector<float> damping_;  // D, 1 / s
+    std::vector<float> weight_;   // w
 };
 
 /// omega h up to which springs swing in time: 0.5, 1 % of the frequency. In large bodies this is for their slower

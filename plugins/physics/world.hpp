@@ -157,12 +157,12 @@ private:
     soft::Tears tears_;
     RigidStage rigid_;
     Queries queries_;
-    bool stale_ = false;               // points and readings are older than the nodes
-    bool untold_ = false;              // so are the reports
-    Index complex_ = 0;                // bodies that go by points and walls
-    std::vector<ContactPoint> ended_;  // pushed in this step, but are over
+    bool stale_ = false;                   // points and readings are older than the nodes
+    bool untold_ = false;                  // so are the reports
+    Index complex_ = 0;                    // bodies that go by points and walls
+    std::vector<ContactPoint> ended_;      // pushed in this step, but are over
     Column<Vec2> stepForces_{Vec2(0, 0)};  // [nodes] of applyForce, for the next step only; no rows before the first
-    bool pushed_ = false;              // is any of them not null?
+    bool pushed_ = false;                  // is any of them not null?
     std::vector<Contact> reports_;
     std::vector<std::uint64_t> touching_;  // sorted pairs of handles, the smaller one high
     std::vector<std::uint64_t> touchedBefore_;

@@ -80,7 +80,7 @@ std::size_t Batch::bytes() const
     return bodies.capacity() * sizeof(Index) + nodeAt.capacity() * sizeof(Index) +
            blocks.runs.capacity() * sizeof(Run) +
            (blocks.ends.capacity() + blocks.seat.capacity()) * sizeof(std::uint32_t) +
-           (coefficients.capacity() + tear.capacity()) * sizeof(float) + springAt.capacity() * sizeof(Index);
+           (coefficients.capacity() + tear.capacity()) * sizeof(float);
 }
 
 Topology Topology::of(const SoftBodyDef& def)

@@ -21,7 +21,6 @@ struct Batch {
     std::vector<Index> nodeAt;  // [rows * 8] of bodies alike; lanes without a body stand for the first. Empty: one body
     Blocks blocks;  // of bodies alike: runs alone, each of one spring of every body; seats are those of lane 0
     std::vector<float> coefficients, tear;  // see SpringBlocks; tear is empty where none tears
-    std::vector<Index> springAt;            // [blocks * 8] spring of each lane; filled where springs tear
 
     bool alike() const { return !nodeAt.empty(); }
     std::size_t planeSize() const { return alike() ? std::size_t{rows} * kLanes : rows; }
