@@ -100,92 +100,6 @@ Index SoftSprings::kindLike(const SpringDef& spring)
     return static_cast<Index>(kinds_.size() - 1);
 }
 
-void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, const Mesh& mesh) const
-{
-    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
-        if (a_[i] == b_[i]) continue;
-        const auto act = [&](Index node, Index other) {
-            const double part = bounds.part(node, other) * state.nodes.invMass[node];
-            bounds.add(node, stiffnessOf(mesh, i) * part);
-            bounds.addDamping(node, dampingOf(mesh, i) * part);
-        };
-        act(a_[i], b_[i]), act(b_[i], a_[i]);
-    }
-}
-
-/// Some steps of the power method, from all weights 1; takes those with the lowest bound.
-void SoftSprings::weigh(StiffnessBounds& bounds, const State& state, const Mesh& mesh)
-{
-    constexpr int kSteps = 12;
-    const Nodes& nodes = state.nodes;
-    double lowest = std::numeric_limits<double>::infinity();
-    weight_.assign(mesh.nodes.count, 1.0);
-    for (int step = 0; step <= kSteps && mesh.springs.count > 0; ++step) {
-        load_.assign(mesh.nodes.count, 0.0);
-        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
-            if (a_[i] == b_[i]) continue;
-            const Index a = a_[i] - mesh.nodes.first, b = b_[i] - mesh.nodes.first;
-            const double both = stiffnessOf(mesh, i) * (weight_[a] + weight_[b]);
-            load_[a] += both * nodes.invMass[a_[i]], load_[b] += both * nodes.invMass[b_[i]];
-        }
-        double most = 0;
-        for (Index k = 0; k < mesh.nodes.count; ++k) most = std::max(most, load_[k] / weight_[k]);
-        if (!(most > 0) || !std::isfinite(most)) return;
-        if (most < lowest && step > 0)
-            for (Index k = 0; k < mesh.nodes.count; ++k)
-                bounds.weigh(mesh.nodes.first + k, static_cast<float>(weight_[k]));
-        lowest = std::min(lowest, most);
-        for (Index k = 0; k < mesh.nodes.count; ++k)
-            weight_[k] = static_cast<double>(static_cast<float>(0.5 * (weight_[k] + load_[k] / most)));
-    }
-}
-
-/// A lower rate than that of the bound which is stable, too, for small bodies: see stiffness.hpp.
-double SoftSprings::provenRate(const State& state, const Mesh& mesh, double rate)
-{
-    constexpr Index kMostNodes = 64;
-    if (mesh.nodes.count > kMostNodes || !(rate > 0)) return 0;
-    for (const double part : {0.7, 0.75, 0.8, 0.85, 0.9})
-        if (isStable(state, mesh, 1 / (part * rate))) return part * rate;
-    return 0;
-}
-
-/// Is 2 kStableLoad M - h² K - 2 h C, with springs that pull in all directions, positive definite? By its factors.
-bool SoftSprings::isStable(const State& state, const Mesh& mesh, double h)
-{
-    const Nodes& nodes = state.nodes;
-    const std::size_t count = mesh.nodes.count;
-    matrix_.assign(count * count, 0.0);
-    const auto at = [&](std::size_t row, std::size_t column) -> double& { return matrix_[row * count + column]; };
-    for (std::size_t k = 0; k < count; ++k) {
-        const double inverse = nodes.invMass[mesh.nodes.first + k];
-        at(k, k) = inverse > 0 ? 2 * kStableLoad / inverse : std::numeric_limits<double>::max();
-    }
-    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
-        const double inverse = nodes.invMass[a_[i]] + nodes.invMass[b_[i]];
-        if (a_[i] == b_[i] || !(inverse > 0)) continue;
-        const double damping = (1 - decay(h * dampingOf(mesh, i) * inverse)) / inverse;
-        const double load = h * h * stiffnessOf(mesh, i) + 2 * damping;
-        const Index a = a_[i] - mesh.nodes.first, b = b_[i] - mesh.nodes.first;
-        at(a, a) -= load, at(b, b) -= load, at(std::max(a, b), std::min(a, b)) += load;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-        const double least = 1e-6 / std::max(nodes.invMass[mesh.nodes.first + k], 1e-300);
-        if (!(at(k, k) > least)) return false;
-        for (std::size_t row = k + 1; row < count; ++row) {
-            const double part = at(row, k) / at(k, k);
-            for (std::size_t column = k + 1; column <= row; ++column) at(row, column) -= part * at(column, k);
-        }
-    }
-    return true;
-}
-
-double SoftSprings::stableRate(const StiffnessBounds& bounds, const BodyRecord& body, Index handle) const
-{
-    const double proven = handle < meshes_.size() ? meshes_[handle].provenRate : 0;
-    return proven > 0 ? proven : bounds.stableRate(body.nodes);
-}
-
 /// Finds which bodies are computed together.
 void SoftSprings::arrange(const State& state)
 {
@@ -240,28 +154,6 @@ void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, st
     angular_.push_back(spring);
 }
 
-/// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
-/// Weights serve bodies whose springs pull in many directions and are taken as they are: to a lone spring the bound
-/// with weights is exact, and one softened to it would ring on.
-void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
-{
-    for (Mesh& mesh : meshes_) {
-        const bool weighed = loose && angular_.empty() && isLarge(mesh.nodes);
-        if (weighed) weigh(bounds, state, mesh);
-        addTo(bounds, state, mesh);
-        const double rate = bounds.stableRate(mesh.nodes);
-        mesh.provenRate = weighed && rate <= kHighestRate ? provenRate(state, mesh, rate) : 0;
-        if (!weighed || rate <= kHighestRate) continue;
-        bounds.reset(mesh.nodes);
-        addTo(bounds, state, mesh);
-    }
-    for (std::vector<double>* scratch : {&load_, &weight_, &matrix_}) *scratch = std::vector<double>();
-    for (const Angular& spring : angular_) {
-        const double rate = spring.ks * spring.restCompliance;
-        for (Index node : {spring.a, spring.centre, spring.b}) bounds.add(node, rate);
-    }
-}
-
 void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h, bool plain)
 {
     arrange(state);
@@ -281,38 +173,6 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
             std::min({bounds.share(spring.a, h), bounds.share(spring.centre, h), bounds.share(spring.b, h)});
         spring.stiffness = spring.ks * share;
         spring.damping = spring.kd + h * (spring.ks - spring.stiffness);
-    }
-}
-
-/// Turns stiffness and damping as they are into those a substep can bear.
-void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, const Mesh& mesh, double h)
-{
-    const Nodes& nodes = state.nodes;
-    const bool proven = mesh.provenRate > 0 && h * mesh.provenRate <= 1 + 1e-9;
-    const auto stable = [&](Index n) { return proven || h * h * bounds.elastic(n) + 2 * h * bounds.damping(n) <= 2; };
-    const auto share = [&](Index n) { return stable(n) ? 1.0 : bounds.share(n, h); };
-    load_.assign(mesh.nodes.count, 0.0);
-    for (Index k = 0; k < mesh.springs.count; ++k) {
-        const Index a = a_[mesh.springs.first + k], b = b_[mesh.springs.first + k];
-        const double inverse = nodes.invMass[a] + nodes.invMass[b];
-        const double ks = stiffness_[k];
-        stiffness_[k] = ks * std::min(share(a), share(b));
-        // The stiffness taken away acts on through its implicit part, h ks v.
-        const double wanted = damping_[k] + h * (ks - stiffness_[k]);
-        damping_[k] = inverse > 0 ? (1 - decay(h * wanted * inverse)) / (h * inverse) : 0;
-        if (a == b) continue;
-        load_[a - mesh.nodes.first] += h * damping_[k] * nodes.invMass[a] * bounds.part(a, b);
-        load_[b - mesh.nodes.first] += h * damping_[k] * nodes.invMass[b] * bounds.part(b, a);
-    }
-    for (Index k = 0; k < mesh.nodes.count; ++k) {
-        const Index node = mesh.nodes.first + k;
-        const double elastic = h * h * bounds.elastic(node);
-        const double room = 1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0));
-        load_[k] = !proven && load_[k] > room ? room / load_[k] : 1;
-    }
-    for (Index k = 0; k < mesh.springs.count; ++k) {
-        const Index i = mesh.springs.first + k;
-        damping_[k] *= std::min(load_[a_[i] - mesh.nodes.first], load_[b_[i] - mesh.nodes.first]);
     }
 }
 
