@@ -1,6 +1,7 @@
 #include "integrator.hpp"
 
 #include "soft/mass_sums.hpp"
+#include "speed_limit.hpp"
 
 namespace jet::physics {
 
@@ -8,15 +9,6 @@ namespace {
 
 using soft::kMostSpeed;
 constexpr double kMostTurningRate = 1e4;  // rad / s
-
-void limit(Vec2& velocity, double& omega)
-{
-    const double squared = velocity.squaredNorm();
-    if (!(squared <= kMostSpeed * kMostSpeed)) {
-        velocity = std::isfinite(squared) ? Vec2(velocity * (kMostSpeed / std::sqrt(squared))) : Vec2(0, 0);
-    }
-    if (!(std::abs(omega) <= kMostTurningRate)) omega = std::isnan(omega) ? 0 : std::copysign(kMostTurningRate, omega);
-}
 
 /// Slows the turning of a soft body about its centre of mass, leaving its oscillations alone.
 void dampTurning(Nodes& nodes, const BodyRecord& body, double kept)
@@ -59,9 +51,13 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
     }
 }
 
-void limitVelocities(State& state)
+void limitSpeed(Vec2& velocity, double& omega)
 {
-    for (Index n = 0; n < state.nodes.size(); ++n) limit(state.nodes.velocity[n], state.nodes.omega[n]);
+    const double squared = velocity.squaredNorm();
+    if (!(squared <= kMostSpeed * kMostSpeed)) {
+        velocity = std::isfinite(squared) ? Vec2(velocity * (kMostSpeed / std::sqrt(squared))) : Vec2(0, 0);
+    }
+    if (!(std::abs(omega) <= kMostTurningRate)) omega = std::isnan(omega) ? 0 : std::copysign(kMostTurningRate, omega);
 }
 
 void integratePositions(State& state, const soft::Kernels& kernels, double h)
@@ -75,7 +71,7 @@ void integratePositions(State& state, const soft::Kernels& kernels, double h)
             continue;
         }
         if (nodes.invMass[first] == 0) continue;
-        limit(nodes.velocity[first], nodes.omega[first]);
+        limitSpeed(nodes.velocity[first], nodes.omega[first]);
         nodes.position[first] += h * nodes.velocity[first];
         if (nodes.invInertia[first] == 0) continue;
         nodes.angle[first] += h * nodes.omega[first];

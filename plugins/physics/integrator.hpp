@@ -7,8 +7,6 @@ namespace jet::physics {
 
 /// Gravity, springs, forces, torques and damping over h. Forces and torques are used up; `pushed`: are there any?
 void integrateVelocities(State&, const WorldSettings&, SoftSprings&, double h, bool pushed);
-/// Keeps absurd speeds from reaching infinity.
-void limitVelocities(State&);
 void integratePositions(State&, const soft::Kernels&, double h);
 
 }  // namespace jet::physics

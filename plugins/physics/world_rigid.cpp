@@ -12,16 +12,22 @@ void World::stepSimple(double dt)
 {
     std::vector<Vec2>& force = state_.nodes.force.values();
     std::vector<double>& torque = state_.nodes.torque.values();
-    for (Index n = 0; n < force.size(); ++n) force[n] = std::as_const(stepForces_)[n];
-    std::fill(torque.begin(), torque.end(), 0.0);
-    if (actuators_.any()) actuators_.addForces(state_);
-    if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
+    // Without forces nothing of this is touched: threads have the nodes in their caches.
+    const bool pushed = pushed_ || actuators_.any() || fields_.count() > 0;
+    if (pushed) {
+        for (Index n = 0; n < force.size(); ++n) force[n] = std::as_const(stepForces_)[n];
+        std::fill(torque.begin(), torque.end(), 0.0);
+        if (actuators_.any()) actuators_.addForces(state_);
+        if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
+    }
     rigid_.step(state_, settings_, dt, stats_);
-    limitVelocities(state_);
     restIfDue(dt);
-    std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
-    std::fill(force.begin(), force.end(), Vec2(0, 0));
-    std::fill(torque.begin(), torque.end(), 0.0);
+    if (pushed) {
+        std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
+        std::fill(force.begin(), force.end(), Vec2(0, 0));
+        std::fill(torque.begin(), torque.end(), 0.0);
+    }
+    pushed_ = false;
     contacts_.points.clear();
     stale_ = untold_ = true;
 }

@@ -1,6 +1,7 @@
 #include "stage.hpp"
 
 #include "drawn.hpp"
+#include "speed_limit.hpp"
 #include "validation.hpp"
 
 #include <chrono>
@@ -305,6 +306,7 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         const double part = fast ? static_cast<double>(allowed_[i]) : 1;
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
         nodes.omega[body.node] = static_cast<double>(s.omega);
+        limitSpeed(nodes.velocity[body.node], nodes.omega[body.node]);
         const Vec2 move = part * moveOf(s);
         nodes.position[body.node] += move;
         const double turn = part * static_cast<double>(s.turn);
