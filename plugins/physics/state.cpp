@@ -51,7 +51,9 @@ void readSoft(State& state, Index handle)
     if (body.nodes.count == 0) return;
     const soft::MassSums sums = soft::massSums(state.nodes, body.nodes, body.restArms.data());
     double& angle = state.readings.angle[handle];
-    angle += wrapped(angleOf(sums.across, sums.along) - angle);
+    // Of what was before only the whole turns count, so that a restored state reads the same bits.
+    const double fit = angleOf(sums.across, sums.along);
+    angle = fit + 2 * kPi * std::round((angle - fit) / (2 * kPi));
     state.readings.position[handle] = sums.centre;
     state.readings.velocity[handle] = sums.velocity;
     state.readings.omega[handle] = sums.omega();

@@ -116,6 +116,20 @@ TEST(Snapshot, AForeignSnapshotIsRefusedAndChangesNothing)
     EXPECT_EQ(world->hash(), before);
 }
 
+/// Angles of soft bodies are unwrapped from step to step; what is restored must not depend on how they came about.
+TEST(Snapshot, RestoringWhatWasJustSavedChangesNoBit)
+{
+    auto world = makeWorld({0, 98.1});
+    world->addRigidBody(ground(0));
+    for (int i = 0; i < 12; ++i) world->addSoftBody(softBall({11.0 * (i % 4) + i, -12.0 - 24 * (i / 4)}, 10));
+    for (int i = 0; i < 90; ++i) {
+        world->step(kStep);
+        const auto hash = world->hash();
+        world->restore(world->save());
+        ASSERT_EQ(world->hash(), hash) << "step " << i;
+    }
+}
+
 }  // namespace
 
 }  // namespace jet::physics::test
