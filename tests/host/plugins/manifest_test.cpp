@@ -130,7 +130,8 @@ TEST(ManifestTest, WhatIsNoJsonAfterANullByteIsNoHang)
                             rest),
                     HasSubstr("a manifest is a JSON object"))
             << rest;
-    EXPECT_THAT(refusal("// a\r[ 1,\n {\"id\": 5} ]"), HasSubstr("plugin.json:1:6: error: a manifest is a JSON object"));
+    EXPECT_THAT(refusal("// a\r[ 1,\n {\"id\": 5} ]"),
+                HasSubstr("plugin.json:1:6: error: a manifest is a JSON object"));
 }
 
 TEST(ManifestTest, DeepNestingAndTruncationsAreNoCrash)
