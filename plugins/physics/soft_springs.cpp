@@ -36,6 +36,7 @@ double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(a
 // inside the step's reserve; beyond it the torque is held back.
 constexpr double kStiffeningReserve = 2.0;
 
+constexpr double kCrush = 0.4;  // substeps: damping of crushed springs by their stiffness
 // The kernels watch for springs longer than this part of what they hold; their lengths are single.
 constexpr double kTearWatch = 0.9999;
 // Fewer springs than this are computed in double, one by one.
@@ -157,6 +158,7 @@ void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, st
 void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h, bool plain)
 {
     arrange(state);
+    crush_ = plain ? 0 : kCrush * h;
     for (soft::Batch& batch : batches_) watchTears(batch);
     for (Mesh& mesh : meshes_) {
         stiffness_.resize(mesh.springs.count), damping_.resize(mesh.springs.count);
@@ -302,7 +304,8 @@ void SoftSprings::pull(State& state, soft::Batch& batch, std::span<const soft::F
     const soft::Blocks& blocks = batch.blocks;
     const std::size_t torn = kernels_->pull({blocks.runs.data(), blocks.runs.size(), blocks.ends.data(),
                                              blocks.ends.size() / (2 * soft::kLanes), batch.coefficients.data(),
-                                             batch.tear.empty() ? nullptr : batch.tear.data(), tornBlocks_.data()},
+                                             batch.tear.empty() ? nullptr : batch.tear.data(), tornBlocks_.data(),
+                                             static_cast<float>(crush_)},
                                             planes);
     if (torn > 0) tearIn(state, batch, {tornBlocks_.data(), torn});
 }
@@ -360,7 +363,9 @@ void SoftSprings::pullOneByOne(State& state, Mesh& mesh)
         const Vec2 along = apart / length;
         const double speed = (nodes.velocity[a] - nodes.velocity[b]).dot(along);
         const Index k = i - mesh.springs.first;
-        const Vec2 force = (mesh.stiffness[k] * (length - rest_[i]) + mesh.damping[k] * speed) * along;
+        const bool crushed = length < static_cast<double>(soft::kCrushed) * rest_[i];
+        const double damping = mesh.damping[k] + (crushed ? crush_ * mesh.stiffness[k] : 0);
+        const Vec2 force = (mesh.stiffness[k] * (length - rest_[i]) + damping * speed) * along;
         nodes.force[a] -= force;
         nodes.force[b] += force;
     }

@@ -157,6 +157,7 @@ private:
     bool anyTorn_ = false;
     std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;
+    double crush_ = 0;  // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
     // Scratch of the body or batch at work; that of preparing is given back.
     std::vector<float> planes_;
     std::vector<std::uint32_t> tornBlocks_;

@@ -46,7 +46,13 @@ struct SpringBlocks {
     const float* coefficients = nullptr;
     const float* tear = nullptr;    ///< [runs + scattered][8] units; null: none tears
     std::uint32_t* torn = nullptr;  ///< [runs + scattered]: blocks that may have torn springs are put here
+    float crush = 0;                ///< seconds; see kCrushed
 };
+
+/// Springs shorter than this part of their rest length are damped by their stiffness times SpringBlocks::crush, too.
+/// Where the ends of a spring pass each other its direction turns at once, which no step follows: undamped bodies that
+/// are crushed again and again would gather energy without end.
+inline constexpr float kCrushed = 0.25F;
 
 /// What one substep does to the velocities of a body's particles.
 struct VelocityStep {

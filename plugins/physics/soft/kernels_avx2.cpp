@@ -11,6 +11,7 @@ struct Avx2 {
     static void store(float* p, F8 a) { _mm256_storeu_ps(p, a); }
     static F8 zero() { return _mm256_setzero_ps(); }
     static F8 one() { return _mm256_set1_ps(1); }
+    static F8 all(float x) { return _mm256_set1_ps(x); }
     static F8 add(F8 a, F8 b) { return _mm256_add_ps(a, b); }
     static F8 sub(F8 a, F8 b) { return _mm256_sub_ps(a, b); }
     static F8 mul(F8 a, F8 b) { return _mm256_mul_ps(a, b); }

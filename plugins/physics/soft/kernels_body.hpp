@@ -35,15 +35,20 @@ struct KernelSet {
     };
 
     /// Tensions of one block along x and y; true where a spring may be longer than it holds.
-    static bool tension(const Offsets& o, const float* coefficients, const float* tear, F8& fx, F8& fy)
+    static bool tension(const Offsets& o, const float* coefficients, const float* tear, float crush, F8& fx, F8& fy)
     {
         const F8 squared = V::add(V::mul(o.x, o.x), V::mul(o.y, o.y));
         const F8 length = V::sqrt(squared);
         const F8 inverse = V::zeroUnlessAbove(V::div(V::one(), length), squared, kLeastSquare);
         const F8 nx = V::mul(o.x, inverse), ny = V::mul(o.y, inverse);
         const F8 speed = V::add(V::mul(o.vx, nx), V::mul(o.vy, ny));
-        const F8 stretch = V::sub(length, V::load(coefficients));
-        const F8 force = V::add(V::mul(V::load(coefficients + 8), stretch), V::mul(V::load(coefficients + 16), speed));
+        const F8 rest = V::load(coefficients), stiffness = V::load(coefficients + 8);
+        F8 force = V::add(V::mul(stiffness, V::sub(length, rest)), V::mul(V::load(coefficients + 16), speed));
+        const F8 least = V::mul(V::all(kCrushed), rest);
+        if (V::anyAbove(least, length)) {
+            const F8 damped = V::mul(V::mul(V::all(crush), stiffness), speed);
+            force = V::add(force, V::zeroUnlessAbove(damped, V::sub(least, length), 0));
+        }
         fx = V::mul(force, nx);
         fy = V::mul(force, ny);
         return tear && V::anyAbove(length, V::load(tear));
@@ -73,7 +78,7 @@ struct KernelSet {
                 const std::size_t b = blocks.runs[i].b;
                 const bool tears = tension({apart(in.x, first.x, b), apart(in.y, first.y, b), apart(in.vx, first.vx, b),
                                             apart(in.vy, first.vy, b)},
-                                           coefficients, tear, fx, fy);
+                                           coefficients, tear, blocks.crush, fx, fy);
                 sumX = V::add(sumX, fx), sumY = V::add(sumY, fy);
                 V::store(in.fx + b, V::add(V::load(in.fx + b), fx));
                 V::store(in.fy + b, V::add(V::load(in.fy + b), fy));
@@ -85,7 +90,7 @@ struct KernelSet {
         for (std::size_t i = 0; i < blocks.scatteredCount; ++i) {
             const std::uint32_t *a = blocks.ends + 16 * i, *b = a + 8;
             const bool tears =
-                tension(in.near ? gathered(in.near, a, b) : picked(in, a, b), coefficients, tear, fx, fy);
+                tension(in.near ? gathered(in.near, a, b) : picked(in, a, b), coefficients, tear, blocks.crush, fx, fy);
             scatter(in, a, b, fx, fy);
             note(blocks.runCount + i, tears);
         }

@@ -13,6 +13,7 @@ struct Sse2 {
     static void store(float* p, F8 a) { _mm_storeu_ps(p, a.low), _mm_storeu_ps(p + 4, a.high); }
     static F8 zero() { return {_mm_setzero_ps(), _mm_setzero_ps()}; }
     static F8 one() { return {_mm_set1_ps(1), _mm_set1_ps(1)}; }
+    static F8 all(float x) { return {_mm_set1_ps(x), _mm_set1_ps(x)}; }
     static F8 add(F8 a, F8 b) { return {_mm_add_ps(a.low, b.low), _mm_add_ps(a.high, b.high)}; }
     static F8 sub(F8 a, F8 b) { return {_mm_sub_ps(a.low, b.low), _mm_sub_ps(a.high, b.high)}; }
     static F8 mul(F8 a, F8 b) { return {_mm_mul_ps(a.low, b.low), _mm_mul_ps(a.high, b.high)}; }

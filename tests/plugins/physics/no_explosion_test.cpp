@@ -95,7 +95,7 @@ TEST(NoExplosion, AStretchedNetNeverHoldsMoreEnergyThanWasPutIn)
 /// Every particle joined to every other: what bounds a node by the sum of its springs says twice what such nets can do.
 TEST(NoExplosion, ADenseNetNeverHoldsMoreEnergyThanWasPutIn)
 {
-    for (double ks = 1; ks < 1e5; ks *= 3) {  // above, the highest rate decides
+    for (double ks = 1; ks < 1e6; ks *= 3) {
         for (const double kd : {0.0, 0.1, 3.0}) {
             SoftBodyDef def;
             for (int i = 0; i < 24; ++i) {
@@ -109,10 +109,28 @@ TEST(NoExplosion, ADenseNetNeverHoldsMoreEnergyThanWasPutIn)
             auto world = makeWorld({0, 0});
             world->addSoftBody(def);
             const double start = springEnergy(*world, def);
-            for (int i = 0; i < 300; ++i) {
+            for (int i = 0; i < 600; ++i) {
                 world->step(kStep);
                 ASSERT_TRUE(allFinite(*world)) << ks << " " << kd;
-                ASSERT_LE(springEnergy(*world, def), 1.6 * start) << ks << " " << kd << " step " << i;
+                ASSERT_LE(springEnergy(*world, def), 1.1 * start) << ks << " " << kd << " step " << i;
+            }
+        }
+    }
+}
+
+/// Where the ends of a spring pass each other, its force turns round within a substep: what that adds must not pile up.
+TEST(NoExplosion, UndampedBodiesThatAreCrushedDoNotGainEnergyInTheLongRun)
+{
+    for (double ks = 10; ks < 1e8; ks *= 10) {
+        for (const double stretch : {0.2, 0.5, 1.5, 2.0}) {
+            SoftBodyDef def = softBall({0, 0}, 10, ks, 0, 12, 2);
+            for (Vec2& p : def.particles) p = Vec2(stretch * p.x(), p.y() + 0.1 * std::sin(p.x()));
+            auto world = makeWorld({0, 0});
+            world->addSoftBody(def);
+            const double start = springEnergy(*world, def);
+            for (int i = 0; i < 1500; ++i) {
+                world->step(kStep);
+                ASSERT_LE(springEnergy(*world, def), 1.1 * start) << ks << " " << stretch << " step " << i;
             }
         }
     }
