@@ -126,7 +126,7 @@ void Contacts::meet(State& state, const std::vector<Motion>& motions, Pair& pair
         const double slide = pair.thickness > 0 ? reach - static_cast<double>(pair.thickness) : reach;
         const NearQuery query{static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(reach),
                               static_cast<float>(slide), static_cast<float>(kTouchDepth) * pair.slop};
-        const NearResult seen = kernels_->survey(&walls_[skin.first], skin.count, query, near_.data());
+        const NearResult seen = kernels_->survey(walls_.data() + skin.first, skin.count, query, near_.data());
         for (Index k = 0; k < skin.count; ++k)
             for (unsigned rest = near_[k]; rest != 0; rest &= rest - 1)
                 add(state, pair, p, b.walls.first + kWide * k + static_cast<Index>(__builtin_ctz(rest)), false);
@@ -161,7 +161,7 @@ void Contacts::meetItself(State& state, const Motion& motion, const Pair& pair, 
         // Walls it has come through before hold it too; wide enough to see them.
         const auto wide = static_cast<float>(reach);
         const NearQuery query{static_cast<float>(local.x()), static_cast<float>(local.y()), wide, wide, wide};
-        kernels_->survey(&walls_[skin.first], skin.count, query, near_.data());
+        kernels_->survey(walls_.data() + skin.first, skin.count, query, near_.data());
         Index deepIn = kNone;  // wall of another piece it is behind
         bool onSurface = false;
         for (Index k = 0; k < skin.count; ++k) {
