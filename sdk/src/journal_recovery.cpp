@@ -53,7 +53,8 @@ void take(Contents& contents, Record& record)
     case RecordKind::Structure: contents.structure = StructureRecord::decode(record.content); return;
     case RecordKind::Base: {
         BaseRecord base = BaseRecord::decode(record.content);
-        contents.scenes[base.scene] = {std::move(base), {}};  // a second one holds all that was done before
+        SceneHistory& history = contents.scenes[base.scene];
+        history = {std::move(base), {}};  // a second one holds all that was done before
         return;
     }
     case RecordKind::Changes: {
