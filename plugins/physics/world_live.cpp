@@ -29,6 +29,7 @@ void World::setMass(BodyHandle handle, double mass)
     requireFinite("a mass", {mass});
     if (!(mass > 0)) throw Failure(Error("Physics: a body's mass must be greater than 0."));
     BodyRecord& body = state_.bodies[handle];
+    if (mass == body.mass) return;
     Nodes& nodes = state_.nodes;
     const double ratio = mass / body.mass;
     body.mass = mass;
@@ -51,6 +52,10 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
         throw Failure(Error("Physics: body " + std::to_string(handle) +
                             " cannot become fixed or free while the world runs; " +
                             (body.rigid ? "make it kinematic" : "pin its particles") + " instead."));
+    if (body.material == common.material && body.gravityScale == common.gravityScale && body.sensor == common.sensor &&
+        body.layer == common.layer && body.drives == (body.rigid && common.kinematic) &&
+        body.fixedRotation == common.fixedRotation && rigid_.isSet(handle, common))
+        return;
     reportIfAsked();  // of what it was
     body.material = common.material, body.gravityScale = common.gravityScale;
     body.sensor = common.sensor, body.layer = common.layer;

@@ -36,6 +36,16 @@ void RigidStage::set(const State& state, Index handle, const BodyCommon& common)
     collider_.disturb(index);
 }
 
+bool RigidStage::isSet(Index handle, const BodyCommon& common) const
+{
+    if (!has(handle)) return true;
+    const RigidBody& body = collider_.bodies()[bodyOf_[handle]];
+    RigidBody wanted = body;
+    wanted.setOneSided(common.oneSided);
+    return body.group == common.group && body.mask == common.mask && body.mayRest == common.allowSleep &&
+           body.oneSidedX == wanted.oneSidedX && body.oneSidedY == wanted.oneSidedY;
+}
+
 void RigidStage::enable(const State& state, Index handle, bool enabled)
 {
     if (!has(handle)) return;

@@ -34,6 +34,8 @@ public:
 
     // Live changes, see live.cpp; the body is awake, and its node is what it shall be.
     void set(const State&, Index handle, const BodyCommon&);
+    /// Are the properties that only this stage knows of what they shall be?
+    bool isSet(Index handle, const BodyCommon&) const;
     void enable(const State&, Index handle, bool enabled);
 
     /// The whole step, where nothing else moves: `forces` and torques lie in the nodes.

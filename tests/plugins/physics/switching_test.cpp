@@ -114,6 +114,10 @@ TEST(SetBody, WakesWhatSleepsOnTheBody)
     const BodyHandle sleeper = world->addRigidBody(simple(box({0, -5}, 10, 10)));
     run(*world, 4);
     ASSERT_FALSE(world->awake(sleeper));
+    world->setBody(sleeper, BodyCommon());
+    world->setBody(0, shelf.common);
+    world->setMass(sleeper, 1);
+    EXPECT_FALSE(world->awake(sleeper)) << "setting what is set wakes nobody";
     BodyCommon ghost;
     ghost.kinematic = true, ghost.mask = 0;
     world->setBody(0, ghost);
