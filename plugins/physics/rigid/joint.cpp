@@ -32,22 +32,34 @@ void JointRow<Real>::warm(BodyState<Real>* bodies) const
 }
 
 template <class Real>
+Real JointRow<Real>::moving(const BodyState<Real>* bodies) const
+{
+    const BodyState<Real>&stateA = bodies[a], &stateB = bodies[b];
+    return ax * stateA.velocityX + ay * stateA.velocityY + angularA * stateA.omega + bx * stateB.velocityX +
+           by * stateB.velocityY + angularB * stateB.omega;
+}
+
+template <class Real>
+Real JointRow<Real>::moved(const BodyState<Real>* bodies) const
+{
+    const BodyState<Real>&stateA = bodies[a], &stateB = bodies[b];
+    return ax * stateA.moveX + ay * stateA.moveY + angularA * stateA.turn + bx * stateB.moveX + by * stateB.moveY +
+           angularB * stateB.turn;
+}
+
+template <class Real>
 void JointRow<Real>::solve(BodyState<Real>* bodies, const Softness<Real>& standard, Real inverseH, bool push)
 {
     BodyState<Real>&stateA = bodies[a], &stateB = bodies[b];
-    const Real moving = ax * stateA.velocityX + ay * stateA.velocityY + angularA * stateA.omega +
-                        bx * stateB.velocityX + by * stateB.velocityY + angularB * stateB.omega;
-    const Real moved = ax * stateA.moveX + ay * stateA.moveY + angularA * stateA.turn + bx * stateB.moveX +
-                       by * stateB.moveY + angularB * stateB.turn;
-    const Real now = error + moved;
+    const Real now = error + moved(bodies);
     Real bias = -speed, massScale = 1, impulseScale = 0;
     if (limit && now > 0) {
-        bias = now * inverseH;
+        bias = now * inverseH + (push ? bend : Real(0));
     } else if (!velocityOnly && (push || soft)) {
         const Softness<Real>& s = soft ? spring : standard;
-        bias = s.biasRate * now, massScale = s.massScale, impulseScale = s.impulseScale;
+        bias = s.biasRate * now + bend, massScale = s.massScale, impulseScale = s.impulseScale;
     }
-    const Real wanted = -mass * massScale * (moving + bias) - impulseScale * impulse;
+    const Real wanted = -mass * massScale * (moving(bodies) + bias) - impulseScale * impulse;
     const Real total = std::clamp(impulse + wanted, least, most);
     const Real change = total - impulse;
     impulse = total;
@@ -250,6 +262,76 @@ void addRows(const Joint& joint, Index index, const JointFrame& f, const BodySta
     case JointDef::Kind::Pulley: addPulley(joint, f, make); break;
     }
 }
+
+template <class Real>
+JointFrame TurningRows<Real>::frameIn(const BodyState<Real>* states, double seconds) const
+{
+    JointFrame f = start_;
+    const auto carry = [&](Index slot, Vec2& arm, Vec2& point) {
+        const BodyState<Real>& s = states[slot];
+        const double turn = static_cast<double>(s.turn) + seconds * static_cast<double>(s.omega);
+        const Vec2 move(static_cast<double>(s.moveX) + seconds * static_cast<double>(s.velocityX),
+                        static_cast<double>(s.moveY) + seconds * static_cast<double>(s.velocityY));
+        const Vec2 turned = rotated(direction(turn), arm);
+        point += move + (turned - arm);
+        arm = turned;
+        return turn;
+    };
+    const double turnA = carry(a_, f.armA, f.pointA), turnB = carry(b_, f.armB, f.pointB);
+    f.angle += turnB - turnA;
+    f.axis = rotated(direction(turnA), f.axis);
+    return f;
+}
+
+/// False: they cannot be made where the bodies are.
+template <class Real>
+bool TurningRows<Real>::make(const JointFrame& f, const BodyState<Real>* states, double h,
+                             std::vector<JointRow<Real>>& made) const
+{
+    made.clear();
+    addRows(*joint_, index_, f, states, a_, b_, h, made);
+    return made.size() == count_;
+}
+
+template <class Real>
+void TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* pushes, double h,
+                             std::vector<JointRow<Real>>& rows, std::vector<JointRow<Real>>& made) const
+{
+    if (!make(frameIn(states, 0), states, h, made)) return;
+    const auto follow = [&](Index slot, Real x, Real y, Real angular) {
+        const BodyState<Real>& s = states[slot];
+        if (s.invMass == 0 && s.invInertia == 0) return;
+        pushes[slot].warmX += s.invMass * x, pushes[slot].warmY += s.invMass * y;
+        pushes[slot].warmW += s.invInertia * angular;
+    };
+    for (std::size_t i = 0; i < count_; ++i) {
+        JointRow<Real>&old = rows[first_ + i], &row = made[i];
+        const Real p = row.impulse = old.impulse;
+        follow(a_, (row.ax - old.ax) * p, (row.ay - old.ay) * p, (row.angularA - old.angularA) * p);
+        follow(b_, (row.bx - old.bx) * p, (row.by - old.by) * p, (row.angularB - old.angularB) * p);
+        row.error -= row.moved(states);
+        old = row;
+    }
+}
+
+template <class Real>
+void TurningRows<Real>::foresee(const BodyState<Real>* states, double h, std::vector<JointRow<Real>>& rows,
+                                std::vector<JointRow<Real>>& made) const
+{
+    // A body that turns by more than a radian is not foreseen farther than that.
+    const Real fastest = std::max(std::abs(states[a_].omega), std::abs(states[b_].omega));
+    const double ahead = std::min(h, fastest > 0 ? 1 / static_cast<double>(fastest) : h);
+    if (!make(frameIn(states, ahead), states, h, made)) return;
+    for (std::size_t i = 0; i < count_; ++i) {
+        JointRow<Real>& row = rows[first_ + i];
+        if (row.soft || row.velocityOnly) continue;
+        const Real straight = row.error + row.moved(states) + static_cast<Real>(ahead) * row.moving(states);
+        row.bend = (made[i].error - straight) / static_cast<Real>(h);
+    }
+}
+
+template class TurningRows<float>;
+template class TurningRows<double>;
 
 template void addRows<float>(const Joint&, Index, const JointFrame&, const BodyState<float>*, Index, Index, double,
                              std::vector<JointRow<float>>&);

@@ -1,8 +1,9 @@
 // Joints between rigid bodies and the background (SPEC PH7 and beyond).
 //
 // Each joint is at most one point-to-point constraint, solved in wide kernels, and a few rows. A row says: the speed
-// J v, with J = (jA, angularA, jB, angularB), shall be such that the error C decays; its impulse is limited. With the
-// frozen geometry of a step, C = C0 + J (moves since the start), and the effective mass is 1 / (J M⁻¹ Jᵀ).
+// J v, with J = (jA, angularA, jB, angularB), shall be such that the error C decays; its impulse is limited. The
+// effective mass is 1 / (J M⁻¹ Jᵀ). Within half a substep C = C0 + J (moves since the start); rows whose J depends on
+// where the bodies are are made anew once a substep, see solver_data.hpp.
 #pragma once
 
 #include "contact.hpp"
@@ -18,7 +19,8 @@ template <class Real>
 struct JointRow {
     Index a = 0, b = 0, joint = 0, slot = 0;  // a, b: of the states
     Real ax = 0, ay = 0, angularA = 0, bx = 0, by = 0, angularB = 0;
-    Real error = 0;             // units or radians at the start of the step
+    Real error = 0;             // units or radians, less J (moves since the start of the step)
+    Real bend = 0;              // units or radians a second by which C comes to differ from C + J v, in this substep
     Real speed = 0;             // wanted, units / s or rad / s
     Real least = 0, most = 0;   // impulse of a substep
     bool soft = false;          // has a spring of its own
@@ -30,6 +32,9 @@ struct JointRow {
     /// Changes the velocities so that the row is met, with or without pushing errors out.
     void solve(BodyState<Real>* bodies, const Softness<Real>& standard, Real inverseH, bool push);
     void warm(BodyState<Real>* bodies) const;
+    /// J times the velocities, and the moves, of its bodies.
+    Real moving(const BodyState<Real>* bodies) const;
+    Real moved(const BodyState<Real>* bodies) const;
 
 private:
     void apply(BodyState<Real>& a, BodyState<Real>& b, Real impulse) const;
@@ -49,6 +54,8 @@ struct Joint {
 
     bool lives() const { return !removed && !broken; }
     bool hasPoint() const { return def.kind == JointDef::Kind::Revolute || def.kind == JointDef::Kind::Weld; }
+    /// Does the J of its rows depend on where the bodies are?
+    bool rowsTurn() const { return !hasPoint(); }
 };
 
 struct JointFrame {
@@ -57,6 +64,33 @@ struct JointFrame {
     double angle = 0;                 // radians since the time of adding
 };
 JointFrame frameOf(const Joint&, const State&, const std::vector<RigidBody>&);
+
+/// A joint whose rows turn with its bodies, in a step.
+template <class Real>
+class TurningRows {
+public:
+    /// Its rows are the last `count` of those given.
+    TurningRows(const Joint& joint, Index index, const JointFrame& start, Index a, Index b, std::size_t first,
+                std::size_t count)
+        : joint_(&joint), index_(index), a_(a), b_(b), first_(first), count_(count), start_(start)
+    {
+    }
+    /// Makes the rows anew for where the bodies are; what their impulses warm follows. `made`: scratch.
+    void turn(const BodyState<Real>*, BodyPush<Real>*, double h, std::vector<JointRow<Real>>& rows,
+              std::vector<JointRow<Real>>& made) const;
+    /// Looks where the velocities lead in a substep.
+    void foresee(const BodyState<Real>*, double h, std::vector<JointRow<Real>>& rows,
+                 std::vector<JointRow<Real>>& made) const;
+
+private:
+    JointFrame frameIn(const BodyState<Real>*, double seconds) const;
+    bool make(const JointFrame&, const BodyState<Real>*, double h, std::vector<JointRow<Real>>& made) const;
+
+    const Joint* joint_;
+    Index index_, a_, b_;
+    std::size_t first_, count_;
+    JointFrame start_;
+};
 
 /// Appends the joint's rows for substeps of h, between the states of its bodies.
 template <class Real>

@@ -40,6 +40,7 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool)
     if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
     for (JointColour& colour : jointColours_) colour.joints.clear(), colour.index.clear(), colour.count = 0;
     for (auto& rows : rows_) rows.clear();
+    for (auto& turning : turning_) turning.clear();
     changes_.clear();
     hardest_ = 0;
     foresees_ = false;
@@ -53,7 +54,10 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     const BodyState<Real>&a = states_[slotA], &b = states_[slotB];
     const bool movesA = a.invMass + a.invInertia > 0, movesB = b.invMass + b.invInertia > 0;
     if (!movesA && !movesB) return;
-    addRows(joint, index, f, states_.data(), slotA, slotB, shape_.h, rows_[nodeOf(joint.a, movesA, joint.b, movesB)]);
+    const Node node = nodeOf(joint.a, movesA, joint.b, movesB);
+    const std::size_t first = rows_[node].size();
+    addRows(joint, index, f, states_.data(), slotA, slotB, shape_.h, rows_[node]);
+    if (joint.rowsTurn()) turning_[node].emplace_back(joint, index, f, slotA, slotB, first, rows_[node].size() - first);
     if (!joint.hasPoint()) return;
     const std::size_t which = colourOf(joint.a, movesA, joint.b, movesB, takenByJoints_);
     JointColour& colour = jointColours_[which];
@@ -69,9 +73,10 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     g.a[lane] = static_cast<std::int32_t>(slotA), g.b[lane] = static_cast<std::int32_t>(slotB);
     const Real ax = static_cast<Real>(f.armA.x()), ay = static_cast<Real>(f.armA.y());
     const Real bx = static_cast<Real>(f.armB.x()), by = static_cast<Real>(f.armB.y());
-    g.armAX[lane] = ax, g.armAY[lane] = ay, g.armBX[lane] = bx, g.armBY[lane] = by;
-    g.errorX[lane] = static_cast<Real>(f.pointB.x() - f.pointA.x());
-    g.errorY[lane] = static_cast<Real>(f.pointB.y() - f.pointA.y());
+    g.armAX[lane] = g.startAX[lane] = ax, g.armAY[lane] = g.startAY[lane] = ay;
+    g.armBX[lane] = g.startBX[lane] = bx, g.armBY[lane] = g.startBY[lane] = by;
+    g.errorX[lane] = g.startErrorX[lane] = static_cast<Real>(f.pointB.x() - f.pointA.x());
+    g.errorY[lane] = g.startErrorY[lane] = static_cast<Real>(f.pointB.y() - f.pointA.y());
     const Real xx = a.invMass + b.invMass + a.invInertia * ay * ay + b.invInertia * by * by;
     const Real yy = a.invMass + b.invMass + a.invInertia * ax * ax + b.invInertia * bx * bx;
     const Real xy = -a.invInertia * ax * ay - b.invInertia * bx * by;
@@ -160,11 +165,26 @@ void Solver<Real>::warmNode(Node node)
     });
 }
 
+/// After the bodies have moved.
+template <class Real>
+void Solver<Real>::turnNode(Node node)
+{
+    for (const TurningRows<Real>& each : turning_[node])
+        each.turn(states_.data(), pushes_.data(), shape_.h, rows_[node], made_[node]);
+    for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
+        JointColour& c = jointColours_[firstColourOf(node) + i];
+        kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size());
+    }
+}
+
 /// All that holds the node's bodies together, once; `last`: nothing follows in this half of the substep.
 template <class Real>
 void Solver<Real>::solveNode(Node node, bool push, int pass, bool last)
 {
     BodyState<Real>* states = states_.data();
+    if (!push && pass == 0) turnNode(node);
+    if (push && pass == 0)
+        for (const TurningRows<Real>& each : turning_[node]) each.foresee(states, shape_.h, rows_[node], made_[node]);
     for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, push);
     for (int again = 0; again < (push ? kJointPushPasses : 1); ++again) {
         for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {

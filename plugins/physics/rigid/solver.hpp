@@ -203,6 +203,7 @@ private:
     }
     void noteFlip(Collider&, const Flip&);
     void warmNode(Node);
+    void turnNode(Node);
     void solveNode(Node, bool push, int pass, bool last);
     template <class Bodies>
     void solveAll(bool push, Bodies&& bodies);
@@ -221,7 +222,8 @@ private:
     std::vector<Colour> colours_;                       // [nodes][colours]
     std::vector<JointColour> jointColours_;             // the same
     std::size_t used_[Domains::kNodes + 1] = {}, usedByJoints_[Domains::kNodes + 1] = {};  // [nodes] colours
-    std::vector<JointRow<Real>> rows_[Domains::kNodes + 1];
+    std::vector<JointRow<Real>> rows_[Domains::kNodes + 1], made_[Domains::kNodes + 1];
+    std::vector<TurningRows<Real>> turning_[Domains::kNodes + 1];
     std::vector<Flip> flips_[Domains::kNodes + 1];
     std::vector<float> drifts_;  // [slots] of the collider
     Pool* pool_ = nullptr;

@@ -6,6 +6,11 @@
 // s = s0 + n·(dB - dA) + (rB × n) aB - (rA × n) aA  with the moves d and turns a since the start of the step. The
 // effective mass is 1 / (mA + mB + iA (rA × n)² + iB (rB × n)²), with inverse masses m and inverse moments i. So a
 // point needs two levers, not four coordinates, and no rotation during the substeps.
+//
+// Joints swing: their arms turn with the bodies, once a substep. A push meets the error as it will be at the end of the
+// substep, which the arms' turning on adds (h/2) (wA² rA - wB² rB) a second to; a relax pass then meets the arms as
+// they have become. Both act along the arms of the same moment, so that what swings keeps its speed (the scheme is that
+// of RATTLE, Andersen 1983, https://doi.org/10.1016/0021-9991(83)90014-1).
 #pragma once
 
 #include "lanes.hpp"
@@ -69,10 +74,12 @@ struct alignas(32) BounceLanes {
 template <class Real>
 struct alignas(32) JointLanes {
     std::int32_t a[kLanes<Real>], b[kLanes<Real>];
-    Lanes<Real> armAX, armAY, armBX, armBY;  // from the centres, frozen
-    Lanes<Real> errorX, errorY;              // at the start of the step
+    Lanes<Real> armAX, armAY, armBX, armBY;  // from the centres
+    Lanes<Real> errorX, errorY;
     Lanes<Real> inverseXX, inverseXY, inverseYY;
     Lanes<Real> impulseX, impulseY;
+    // Read by turnJoints() only: at the start of the step.
+    Lanes<Real> startAX, startAY, startBX, startBY, startErrorX, startErrorY;
 };
 
 /// A damped spring of some frequency, integrated implicitly over h, as a bias rate and two scales of the impulse.
@@ -110,6 +117,8 @@ struct Kernels {
     void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, BounceLanes<Real>*, std::size_t,
                            const StepConstants<Real>&);
     void (*solveJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&, bool push);
+    /// Turns the arms to where the bodies are now; what the accumulated impulses warm follows.
+    void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t);
     /// Takes up the impulses of the last substep, then forces, damping and warm starting.
     void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, Real h);
     void (*integratePositions)(BodyState<Real>*, std::size_t, Real h);

@@ -52,6 +52,118 @@ TEST(Joints, APendulumSwingsInItsPeriod)
     EXPECT_NEAR((last - first) / (crossings - 1), period, 0.01 * period);
 }
 
+/// What swings about a point without friction keeps its speed, whatever holds it.
+class SwingingJoints : public testing::TestWithParam<JointDef::Kind> {};
+
+TEST_P(SwingingJoints, KeepTheirSpeed)
+{
+    const double arm = 40, speed = 5;  // rad / s: 4.8 degrees a step
+    for (const bool amongSoft : {false, true}) {
+        auto world = makeWorld({0, 0});
+        RigidBodyDef bob = disc({arm, 0}, 5);
+        bob.common.velocity = {0, arm * speed};
+        bob.common.omega = speed;
+        const BodyHandle body = world->addRigidBody(bob);
+        if (amongSoft) world->addSoftBody(softBall({500, 0}, 40, 10, 0.1, 16, 2));
+        const bool held = GetParam() == JointDef::Kind::Distance || GetParam() == JointDef::Kind::Rope;
+        world->addJoint(between(GetParam(), kNoHandle, {0, 0}, body, held ? Vec2(arm, 0) : Vec2(0, 0)));
+        for (int second = 1; second <= 20; ++second) {
+            run(*world, 1);
+            EXPECT_NEAR(world->bodies().position[body].norm(), arm, 1e-4 * arm) << "after " << second << " s";
+            EXPECT_NEAR(world->bodies().velocity[body].norm(), arm * speed, 1e-4 * (second + 1) * arm * speed)
+                << "after " << second << " s, soft bodies: " << amongSoft;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SwingingJoints,
+                         testing::Values(JointDef::Kind::Revolute, JointDef::Kind::Distance, JointDef::Kind::Rope));
+
+/// Of motion and of gravity, of bodies of mass 1.
+double energyOf(const PhysicsWorld& world, const std::vector<BodyHandle>& bodies, double inertia, double g)
+{
+    double sum = 0;
+    for (const BodyHandle body : bodies)
+        sum += 0.5 * world.bodies().velocity[body].squaredNorm() +
+               0.5 * inertia * world.bodies().omega[body] * world.bodies().omega[body] -
+               g * world.bodies().position[body].y();
+    return sum;
+}
+
+TEST(SwingingJoints, ADoublePendulumKeepsItsEnergy)
+{
+    // Two bars hinged together fall from the horizontal, over and over.
+    const double g = 100, length = 40;
+    for (const Precision precision : {Precision::Double, Precision::Single}) {
+        WorldSettings settings;
+        settings.gravity = {0, g};
+        settings.precision = precision;
+        auto world = JetPhysics().createWorld(settings);
+        std::vector<BodyHandle> bars;
+        for (int i = 0; i < 2; ++i) {
+            bars.push_back(world->addRigidBody(simple(box({length * (0.5 + i), 0}, length, 4))));
+            const Vec2 hinge(length * i, 0);
+            world->addJoint(between(JointDef::Kind::Revolute, i == 0 ? kNoHandle : bars[i - 1], hinge, bars[i], hinge));
+        }
+        const double inertia = (length * length + 4 * 4) / 12;
+        for (int i = 0; i < 1200; ++i) {
+            world->step(kStep);
+            ASSERT_NEAR(energyOf(*world, bars, inertia, g), 0, 0.01 * 2 * g * length) << "step " << i;
+        }
+    }
+}
+
+TEST(SwingingJoints, WhatSlidesOnATurningRailIsFlungOut)
+{
+    // Two bars joined by a rail turn about their common centre: r'' = omega² r, angular momentum and energy stay.
+    auto world = makeWorld({0, 0});
+    const double omega = 2, from = 30;
+    std::vector<BodyHandle> bars;
+    for (const double x : {-from, from}) {
+        RigidBodyDef bar = simple(box({x, 0}, 20, 4));
+        bar.common.velocity = {0, omega * x};
+        bar.common.omega = omega;
+        bars.push_back(world->addRigidBody(bar));
+    }
+    world->addJoint(between(JointDef::Kind::Prismatic, bars[0], {0, 0}, bars[1], {0, 0}));
+    const double inertia = (20.0 * 20 + 4 * 4) / 12;
+    const double start = energyOf(*world, bars, inertia, 0), momentum = 2 * (from * from + inertia) * omega;
+    for (int i = 0; i < 120; ++i) {
+        world->step(kStep);
+        const auto& now = world->bodies();
+        double turning = 0;
+        for (const BodyHandle bar : bars) {
+            const Vec2 at = now.position[bar], velocity = now.velocity[bar];
+            turning += at.x() * velocity.y() - at.y() * velocity.x() + inertia * now.omega[bar];
+        }
+        ASSERT_NEAR(turning, momentum, 1e-5 * momentum) << "step " << i;
+        ASSERT_NEAR(energyOf(*world, bars, inertia, 0), start, 1e-5 * start) << "step " << i;
+        ASSERT_NEAR(now.angle[bars[0]], now.angle[bars[1]], 1e-5) << "step " << i;
+    }
+    EXPECT_GT(world->bodies().position[bars[1]].norm(), 4 * from);
+}
+
+TEST(SwingingJoints, APulleyPassesEnergyOn)
+{
+    // One end swings while the other goes up and down, by more than 20 units: thousands of energy.
+    const double g = 100;
+    auto world = makeWorld({0, g});
+    const std::vector<BodyHandle> ends = {world->addRigidBody(disc({-80, 60}, 4)),
+                                          world->addRigidBody(disc({40, 90}, 4))};
+    JointDef def = between(JointDef::Kind::Pulley, ends[0], {-80, 60}, ends[1], {40, 90});
+    def.groundA = {-40, 0}, def.groundB = {40, 0};
+    world->addJoint(def);
+    const double start = energyOf(*world, ends, 8, g), length = (Vec2(-80, 60) - def.groundA).norm() + 90;
+    for (int i = 0; i < 240; ++i) {
+        world->step(kStep);
+        const double ropes = (world->bodies().position[ends[0]] - def.groundA).norm() +
+                             (world->bodies().position[ends[1]] - def.groundB).norm();
+        ASSERT_NEAR(ropes, length, 1e-4 * length) << "step " << i;
+        ASSERT_NEAR(energyOf(*world, ends, 8, g), start, 3) << "step " << i;
+    }
+    EXPECT_LT(world->bodies().position[ends[1]].y(), 70);
+}
+
 TEST(Joints, AMotorReachesItsSpeedAndItsTorqueIsLimited)
 {
     auto world = makeWorld({0, 0});

@@ -214,14 +214,29 @@ TEST(NoExplosion, SpringsBetweenBodiesOfTenThousandfoldMassGiveBackNoMoreThanThe
     }
 }
 
-TEST(NoExplosion, AHeavyBodyOnALightOneAndAHeavyBallOnALightChainStayWhereTheyMust)
+TEST(NoExplosion, AHeavyBodyOnALightOneComesToRest)
 {
     for (const double ratio : {100.0, 1e4}) {
         for (const double step : kSteps) {
             auto world = makeWorld({0, 98.1});
             world->addRigidBody(simple(ground(0)));
-            world->addRigidBody(simple(box({0, -10}, 20, 20, 1)));
-            world->addRigidBody(simple(box({0, -30}, 20, 20, ratio)));
+            const BodyHandle light = world->addRigidBody(simple(box({0, -10}, 20, 20, 1)));
+            const BodyHandle heavy = world->addRigidBody(simple(box({0, -30}, 20, 20, ratio)));
+            for (int i = 0; i < static_cast<int>(std::lround(4 / step)); ++i) world->step(step);
+            ASSERT_TRUE(allFinite(*world)) << ratio << " " << step;
+            EXPECT_LT(world->bodies().velocity[light].norm(), 5) << ratio << " " << step;
+            if (ratio < 1000) {
+                EXPECT_LT(world->bodies().position[heavy].y(), -25) << "it did not sink through: " << step;
+            }
+        }
+    }
+}
+
+TEST(NoExplosion, AHeavyBallSwingsOnALightChain)
+{
+    for (const double ratio : {100.0, 1e3, 1e4}) {
+        for (const double step : kSteps) {
+            auto world = makeWorld({0, 98.1});
             BodyHandle before = kNoHandle;
             for (int i = 0; i < 10; ++i) {
                 RigidBodyDef link;
@@ -235,17 +250,18 @@ TEST(NoExplosion, AHeavyBodyOnALightOneAndAHeavyBallOnALightChainStayWhereTheyMu
             }
             world->setVelocity(before, {20, 0});
             const double heavyTop = 0.5 * 20 * 20 / 98.1;  // it can rise no higher than its speed tells
-            double fastest = 0;
+            const Vec2 hook(200, -305);
+            double fastest = 0, longest = 0;
             for (int i = 0; i < static_cast<int>(std::lround(4 / step)); ++i) {
                 world->step(step);
                 fastest = std::max(fastest, world->bodies().velocity[before].norm());
+                longest = std::max(longest, (world->bodies().position[before] - hook).norm());
                 ASSERT_GT(world->bodies().position[before].y(), -210 - 2 * heavyTop - 100) << ratio << " " << step;
             }
             ASSERT_TRUE(allFinite(*world)) << ratio << " " << step;
             EXPECT_LT(fastest, 400) << ratio << " " << step;
-            EXPECT_LT(world->bodies().velocity[1].norm(), 5) << ratio << " " << step;
-            if (ratio < 1000) {
-                EXPECT_LT(world->bodies().position[2].y(), -25) << "it did not sink through: " << ratio << " " << step;
+            if (ratio < 5000) {
+                EXPECT_LT(longest, 1.2 * 95) << "the chain holds: " << ratio << " " << step;
             }
         }
     }
