@@ -289,8 +289,8 @@ template <class Real>
 void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
 {
     collider.settled();
+    for (auto& flips : flips_) flips.clear();  // those of nodes too that an earlier division had
     eachNode([&](Node node) {
-        flips_[node].clear();
         eachColour(node, [&](Colour& c) {
             kernels_->carryContacts(states_.data(), c.contacts.data(), bounces_ ? c.bounces.data() : nullptr,
                                     c.touches.data(), c.contacts.size());

@@ -198,6 +198,20 @@ TEST(DividedWorlds, WhatMixesIsDividedAnewAndDoesNotDependOnThreads)
     expectTheSame([](int threads) { return drumWorld(shapeSettings(threads), 36); }, 150, [](PhysicsWorld&, int) {});
 }
 
+TEST(DividedWorlds, WhatPartsIsOneWorldAgainAndDoesNotDependOnThreads)
+{
+    // Bodies scatter and hit each other until hardly any touch; what was noted of touches must not outlive the
+    // division.
+    expectTheSame([](int threads) { return pyramidWorld(shapeSettings(threads), 45); }, 60,
+                  [](PhysicsWorld& world, int step) {
+                      if (step != 15) return;
+                      world.setGravity({0, 0});
+                      for (BodyHandle body = 1; body < world.bodyCount(); ++body)
+                          world.setVelocity(body, world.bodies().position[body] +
+                                                      Vec2(100 * std::sin(7.0 * body), 100 * std::cos(11.0 * body)));
+                  });
+}
+
 TEST(DividedWorlds, SleepAndWakingDoNotDependOnThreads)
 {
     const auto build = [](int threads) {
