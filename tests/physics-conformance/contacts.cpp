@@ -250,6 +250,27 @@ Outcome contactRecords(const Lab& lab)
     return measured(percentOff(impulse, 300 * kStep), "% of m g dt", 2, "impulses of a box at rest");
 }
 
+Outcome hitImpulses(const Lab& lab)
+{
+    // m (v - v before - g dt) is what the contacts gave, in the steps of hits, too.
+    const auto world = lab.world({0, 100}, 0, 0.7);
+    world->addRigidBody(ground(0));
+    const BodyHandle ball = world->addRigidBody(disc({0, -60}, 10, 2));
+    double worst = 0, hits = 0;
+    for (int i = 0; i < 240; ++i) {
+        const double before = world->bodies().velocity[ball].y();
+        world->step(kStep);
+        const double change = 2 * (world->bodies().velocity[ball].y() - before - 100 * kStep);
+        if (change > -20) continue;
+        double given = 0;
+        for (const Contact& c : world->contacts()) given += c.impulse * c.normal.y() * (c.bodyA == ball ? 1 : -1);
+        worst = std::max(worst, percentOff(given, change));
+        ++hits;
+    }
+    if (hits < 3) return holds(false, "a ball does not bounce");
+    return measured(worst, "%", 2, "impulses of a ball's hits against its change of momentum");
+}
+
 Outcome ghosts(const Lab& lab)
 {
     const auto world = lab.world({0, 100}, 0);
@@ -317,6 +338,7 @@ std::vector<Check> contactChecks()
             {"contacts", "one-sided platforms", oneSided},
             {"contacts", "order of contact events", events},
             {"contacts", "contact records", contactRecords},
+            {"contacts", "impulses of hits", hitImpulses},
             {"contacts", "sleeping and waking", sleeping}};
 }
 

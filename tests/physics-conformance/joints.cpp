@@ -26,6 +26,22 @@ Outcome revolute(const Lab& lab)
                     "off its pivot by " + std::to_string(stretch).substr(0, 6) + " units");
 }
 
+Outcome swinging(const Lab& lab)
+{
+    // Nothing slows down what turns about a hinge, or on a rod; two seconds at 2 rad/s.
+    double off = 0;
+    for (const Kind kind : {Kind::Revolute, Kind::Distance}) {
+        const auto world = lab.world({0, 0});
+        RigidBodyDef def = disc({40, 0}, 5);
+        def.common.velocity = {0, 80}, def.common.omega = 2;
+        const BodyHandle bob = world->addRigidBody(def);
+        world->addJoint(joint(kind, background({0, 0}), on(bob, kind == Kind::Distance ? Vec2(40, 0) : Vec2(0, 0))));
+        run(*world, 2);
+        off = std::max(off, percentOff(world->bodies().velocity[bob].norm(), 80));
+    }
+    return measured(off, "% of its speed", 10, "2 s at 2 rad/s, on a hinge and on a rod");
+}
+
 Outcome revoluteLimit(const Lab& lab)
 {
     const auto world = lab.world({0, 200});
@@ -336,6 +352,7 @@ std::vector<Check> jointChecks()
             {"joints", "reaction force", reaction},
             {"joints", "removing", removing},
             {"joints", "chain of twenty", chain},
+            {"joints", "what swings keeps its speed", swinging},
             {"joints", "drawn bodies", drawnBodies},
             {"springs between bodies", "period", springPeriod},
             {"springs between bodies", "tearing", springTears},

@@ -239,11 +239,12 @@ void Solver<Real>::copyLane(const Colour& from, std::size_t source, Colour& to, 
         const auto& s = f.points[k];
         auto& t = e.points[k];
         copy(s.leverA, t.leverA), copy(s.leverB, t.leverB), copy(s.mass, t.mass), copy(s.impulse, t.impulse);
+        copy(s.total, t.total);
     }
     if (bounces) {
         const BounceLanes<Real>& r = from.bounces[source / kWidth];
         BounceLanes<Real>& s = to.bounces[target / kWidth];
-        copy(r.restitution, s.restitution), copy(r.most[0], s.most[0]), copy(r.most[1], s.most[1]);
+        copy(r.restitution, s.restitution);
     }
     const std::uint32_t bit = from.touched[source / kWidth] >> a & 1U;
     to.touched[target / kWidth] &= ~(1U << b);
@@ -294,10 +295,11 @@ void Solver<Real>::remove(Collider& collider, Index contact)
         clear(g.points[k].leverA), clear(g.points[k].leverB), clear(g.points[k].separation);
         clear(g.points[k].mass), clear(g.points[k].impulse);
         clear(f.points[k].leverA), clear(f.points[k].leverB), clear(f.points[k].mass), clear(f.points[k].impulse);
+        clear(f.points[k].total);
     }
     if (!bounces_) return;
     BounceLanes<Real>& r = colour.bounces[last / kWidth];
-    clear(r.restitution), clear(r.most[0]), clear(r.most[1]);
+    clear(r.restitution);
 }
 
 template <class Real>
@@ -334,7 +336,7 @@ void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place 
         auto& q = f.points[k];
         if (k >= c.count) {
             p.leverA[lane] = p.leverB[lane] = q.leverA[lane] = q.leverB[lane] = 0;
-            p.separation[lane] = p.mass[lane] = q.mass[lane] = p.impulse[lane] = q.impulse[lane] = 0;
+            p.separation[lane] = p.mass[lane] = q.mass[lane] = p.impulse[lane] = q.impulse[lane] = q.total[lane] = 0;
             continue;
         }
         // Both arms end in one place, half way between the surfaces.
@@ -364,7 +366,7 @@ void Solver<Real>::fetch(RigidContact& c, Place place) const
         c.separation[k] = static_cast<float>(g.points[k].separation[lane]) - c.slop;
         c.impulse[k] = static_cast<float>(g.points[k].impulse[lane]);
         c.tangentImpulse[k] = static_cast<float>(colour.frictions[group].points[k].impulse[lane]);
-        c.stepImpulse += bounces_ ? static_cast<float>(colour.bounces[group].most[k][lane]) : c.impulse[k];
+        c.stepImpulse += static_cast<float>(total(place, k));
     }
 }
 

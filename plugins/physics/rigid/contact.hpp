@@ -73,7 +73,7 @@ struct alignas(16) RigidContact {
     bool foreseen = false;         // its point is one of a hit later in the step
     std::uint16_t unused = 0;
     std::uint16_t ids[2] = {0, 0};
-    float stepImpulse = 0;                                  // greatest of the step in which they began to touch
+    float stepImpulse = 0;                                  // sum over the step, mass units / s
     Vec2f normal;                                           // in A's frame, from A to B
     Vec2f onA[2], onB[2];                                   // in the frames of their bodies
     float impulse[2] = {0, 0}, tangentImpulse[2] = {0, 0};  // of the last substep, mass units / s

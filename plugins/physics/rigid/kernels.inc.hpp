@@ -293,6 +293,8 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
             push<Real>(a, b, moveA.invInertia, moveB.invInertia, tangentX, tangentY, q.leverA, q.leverB, change);
         }
         relaxNormals<Real>(c, a, b, moveA, moveB, zero, step);
+        for (int k = 0; k < 2; ++k)
+            f.points[k].total = step.totalKept * f.points[k].total + step.totalAdded * c.points[k].impulse;
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
@@ -308,7 +310,6 @@ void approachContacts(const BodyState<Real>* bodies, const ContactLanes<Real>* g
         for (int k = 0; k < 2; ++k) {
             const auto& p = c.points[k];
             bounces[g].approach[k] = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
-            bounces[g].most[k] = all<Real>(0);
         }
     }
 }
@@ -321,7 +322,7 @@ void scaleContacts(ContactLanes<Real>* groups, FrictionLanes<Real>* frictions, s
 }
 
 template <class Real>
-void carryContacts(const BodyState<Real>* bodies, ContactLanes<Real>* groups, const BounceLanes<Real>* bounces,
+void carryContacts(const BodyState<Real>* bodies, ContactLanes<Real>* groups, const FrictionLanes<Real>* frictions,
                    std::uint32_t* bits, std::size_t count)
 {
     const Lanes<Real> zero = all<Real>(0);
@@ -333,33 +334,27 @@ void carryContacts(const BodyState<Real>* bodies, ContactLanes<Real>* groups, co
         for (int k = 0; k < 2; ++k) {
             auto& p = c.points[k];
             p.separation += moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
-            pushed = most(pushed, bounces != nullptr ? bounces[g].most[k] : p.impulse);
+            pushed = most(pushed, frictions[g].points[k].total);
         }
         bits[g] = bitsOf<Real>(pushed > zero);
     }
-}
-
-template <class Real>
-void noteImpulses(const ContactLanes<Real>* groups, BounceLanes<Real>* bounces, std::size_t count)
-{
-    for (std::size_t g = 0; g < count; ++g)
-        for (int k = 0; k < 2; ++k) bounces[g].most[k] = most(bounces[g].most[k], groups[g].points[k].impulse);
 }
 
 /// The two points of a contact share its bounce: a pass leaves at most a quarter of what the one before left wrong.
 constexpr int kPairPasses = 6;
 
 template <class Real>
-void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, BounceLanes<Real>* bounces, std::size_t count,
-                    const StepConstants<Real>& step)
+void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, FrictionLanes<Real>* frictions,
+                    const BounceLanes<Real>* bounces, std::size_t count, const StepConstants<Real>& step)
 {
     const Lanes<Real> zero = all<Real>(0);
     for (std::size_t g = 0; g < count; ++g) {
         ContactLanes<Real>& c = groups[g];
-        BounceLanes<Real>& r = bounces[g];
+        FrictionLanes<Real>& f = frictions[g];
+        const BounceLanes<Real>& r = bounces[g];
         Mask<Real> bouncing[2];
         for (int k = 0; k < 2; ++k)
-            bouncing[k] = (r.restitution > zero) & (r.approach[k] < -step.restSpeed) & (r.most[k] > zero);
+            bouncing[k] = (r.restitution > zero) & (r.approach[k] < -step.restSpeed) & (f.points[k].total > zero);
         if (bitsOf<Real>(bouncing[0] | bouncing[1]) == 0) continue;
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
@@ -369,7 +364,7 @@ void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, BounceL
             const Lanes<Real> wanted = most(p.impulse - p.mass * (speed + r.restitution * r.approach[k % 2]), zero);
             const Lanes<Real> change = choose<Real>(bouncing[k % 2], wanted - p.impulse, zero);
             p.impulse += change;
-            r.most[k % 2] = most(r.most[k % 2], p.impulse);
+            f.points[k % 2].total += change;
             push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
         }
         scatter(bodies, c.a, a);
@@ -516,10 +511,10 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {calmContacts<Real>,        warmContacts<Real>,      warmJoints<Real>,    solveContacts<Real>,
-            relaxContacts<Real>,       approachContacts<Real>,  scaleContacts<Real>, carryContacts<Real>,
-            noteImpulses<Real>,        bounceContacts<Real>,    solveJoints<Real>,   turnJoints<Real>,
-            integrateVelocities<Real>, integratePositions<Real>};
+    return {calmContacts<Real>,      warmContacts<Real>,     warmJoints<Real>,    solveContacts<Real>,
+            relaxContacts<Real>,     approachContacts<Real>, scaleContacts<Real>, carryContacts<Real>,
+            bounceContacts<Real>,    solveJoints<Real>,      turnJoints<Real>,    integrateVelocities<Real>,
+            integratePositions<Real>};
 }
 
 }  // namespace

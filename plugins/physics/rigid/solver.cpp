@@ -138,6 +138,7 @@ template <class Real>
 void Solver<Real>::prepare(int passes)
 {
     passes_ = passes;
+    fresh_ = true;
     const auto ratio = static_cast<Real>(lastH_ > 0 ? shape_.h / lastH_ : 1);
     lastH_ = shape_.h;
     countUsed();
@@ -177,32 +178,43 @@ void Solver<Real>::turnNode(Node node)
     }
 }
 
-/// All that holds the node's bodies together, once; `last`: nothing follows in this half of the substep.
+/// All that holds the node's bodies together, once; `first` in this half of the substep.
 template <class Real>
-void Solver<Real>::solveNode(Node node, bool push, int pass, bool last)
+void Solver<Real>::pushNode(Node node, bool first)
 {
     BodyState<Real>* states = states_.data();
-    if (!push && pass == 0) turnNode(node);
-    if (push && pass == 0)
+    if (first)
         for (const TurningRows<Real>& each : turning_[node]) each.foresee(states, shape_.h, rows_[node], made_[node]);
-    for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, push);
-    for (int again = 0; again < (push ? kJointPushPasses : 1); ++again) {
+    for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, true);
+    for (int again = 0; again < kJointPushPasses; ++again) {
         for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
             JointColour& c = jointColours_[firstColourOf(node) + i];
-            kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, push);
+            kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, true);
         }
     }
+    eachColour(node,
+               [&](Colour& c) { kernels_->solveContacts(states, c.contacts.data(), c.contacts.size(), constants_); });
+}
+
+/// The same, without pushing errors out; `last` in this half of the substep.
+template <class Real>
+void Solver<Real>::relaxNode(Node node, int pass, bool last)
+{
+    BodyState<Real>* states = states_.data();
+    if (pass == 0) turnNode(node);
+    for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, false);
+    for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
+        JointColour& c = jointColours_[firstColourOf(node) + i];
+        kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, false);
+    }
+    StepConstants<Real> constants = constants_;
+    if (last) constants.totalKept = fresh_ ? 0 : 1, constants.totalAdded = 1;
     eachColour(node, [&](Colour& c) {
-        ContactLanes<Real>* contacts = c.contacts.data();
-        const std::size_t count = c.contacts.size();
-        if (push) {
-            kernels_->solveContacts(states, contacts, count, constants_);
-        } else if (pass % kRelaxPasses != kRelaxPasses - 1) {
-            kernels_->calmContacts(states, contacts, count, constants_);
+        if (pass % kRelaxPasses != kRelaxPasses - 1) {
+            kernels_->calmContacts(states, c.contacts.data(), c.contacts.size(), constants);
         } else {
-            kernels_->relaxContacts(states, contacts, c.frictions.data(), count, constants_);
+            kernels_->relaxContacts(states, c.contacts.data(), c.frictions.data(), c.contacts.size(), constants);
         }
-        if (last && bounces_) kernels_->noteImpulses(contacts, c.bounces.data(), count);
     });
 }
 
@@ -216,7 +228,14 @@ void Solver<Real>::solveAll(bool push, Bodies&& bodies)
             [&](Index first, Index count) {
                 if (i == 0) bodies(first, count);
             },
-            [&](Node node) { solveNode(node, push, i, i + 1 == passes); });
+            [&](Node node) {
+                if (push) {
+                    pushNode(node, i == 0);
+                } else {
+                    relaxNode(node, i, i + 1 == passes);
+                }
+            });
+    if (!push) fresh_ = false;
 }
 
 template <class Real>
@@ -279,8 +298,8 @@ void Solver<Real>::bounce()
     for (int pass = 0; pass < kBouncePasses * std::min(passes_, 4); ++pass)
         eachNode([&](Node node) {
             eachColour(node, [&](Colour& c) {
-                kernels_->bounceContacts(states_.data(), c.contacts.data(), c.bounces.data(), c.contacts.size(),
-                                         constants_);
+                kernels_->bounceContacts(states_.data(), c.contacts.data(), c.frictions.data(), c.bounces.data(),
+                                         c.contacts.size(), constants_);
             });
         });
 }
@@ -292,8 +311,8 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
     for (auto& flips : flips_) flips.clear();  // those of nodes too that an earlier division had
     eachNode([&](Node node) {
         eachColour(node, [&](Colour& c) {
-            kernels_->carryContacts(states_.data(), c.contacts.data(), bounces_ ? c.bounces.data() : nullptr,
-                                    c.touches.data(), c.contacts.size());
+            kernels_->carryContacts(states_.data(), c.contacts.data(), c.frictions.data(), c.touches.data(),
+                                    c.contacts.size());
             const auto colour = static_cast<std::uint32_t>(&c - colours_.data());
             for (std::uint32_t group = 0; group < c.touches.size(); ++group)
                 if (c.touches[group] != c.touched[group]) flips_[node].push_back({colour, group});

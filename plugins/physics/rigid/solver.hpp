@@ -74,6 +74,11 @@ public:
 
     /// Impulses and separations of a contact that has a constraint, as they are now.
     void fetch(RigidContact&, Place) const;
+    /// What one of its points was given along the normal in the step, mass units / s.
+    Real total(Place place, int point) const
+    {
+        return colourAt(place).frictions[laneAt(place) / kWidth].points[point].total[laneAt(place) % kWidth];
+    }
     /// Takes the constraints of all contacts away; their impulses go back to them.
     void release(Collider&);
     bool holdsContacts() const;
@@ -195,16 +200,17 @@ private:
             auto& p = g.points[k];
             auto& q = f.points[k];
             value(p.leverA), value(p.leverB), value(p.separation), value(p.mass), value(p.impulse);
-            value(q.leverA), value(q.leverB), value(q.mass), value(q.impulse);
+            value(q.leverA), value(q.leverB), value(q.mass), value(q.impulse), value(q.total);
         }
         if (!bounces_) return;
         BounceLanes<Real>& r = colour.bounces[group];
-        value(r.restitution), value(r.most[0]), value(r.most[1]);
+        value(r.restitution);
     }
     void noteFlip(Collider&, const Flip&);
     void warmNode(Node);
     void turnNode(Node);
-    void solveNode(Node, bool push, int pass, bool last);
+    void pushNode(Node, bool first);
+    void relaxNode(Node, int pass, bool last);
     template <class Bodies>
     void solveAll(bool push, Bodies&& bodies);
     static std::size_t groups(std::size_t lanes) { return (lanes + kWidth - 1) / kWidth; }
@@ -233,6 +239,7 @@ private:
     float hardest_ = 0;
     bool foresees_ = false;
     bool bounces_ = false;  // does any contact have restitution?
+    bool fresh_ = true;     // is the step's first substep to come?
 };
 
 extern template class Solver<float>;

@@ -59,6 +59,7 @@ struct alignas(32) FrictionLanes {
         Lanes<Real> leverA, leverB;  // r × tangent
         Lanes<Real> mass;
         Lanes<Real> impulse;
+        Lanes<Real> total;  // along the normal, of the step
     } points[2];
 };
 
@@ -67,7 +68,6 @@ template <class Real>
 struct alignas(32) BounceLanes {
     Lanes<Real> restitution;
     Lanes<Real> approach[2];  // relative normal speed at the start of the step; negative: approaching
-    Lanes<Real> most[2];      // greatest impulse of the step
 };
 
 /// A point of A held to a point of B: the core of revolute, weld and similar joints.
@@ -93,6 +93,8 @@ struct StepConstants {
     Real h = 0, inverseH = 0;             // s, 1 / s
     Softness<Real> moving, still, joint;  // contacts between moving bodies, with one that does not move, joints
     Real restSpeed = 0;                   // units / s; slower hits do not bounce
+    Real totalKept = 1, totalAdded = 0;   // how a relax pass adds to the totals: they begin anew with a step's first
+                                          // substep, and get the impulses that are left at the end of each
 };
 
 template <class Real>
@@ -104,18 +106,17 @@ struct Kernels {
     void (*warmJoints)(BodyState<Real>*, const JointLanes<Real>*, std::size_t);
     /// Pushes out of overlaps: normals only.
     void (*solveContacts)(BodyState<Real>*, ContactLanes<Real>*, std::size_t, const StepConstants<Real>&);
-    /// Takes the pushing velocity back out; friction.
+    /// Takes the pushing velocity back out; friction; totals.
     void (*relaxContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, std::size_t,
                           const StepConstants<Real>&);
     /// For the bounces: relative speeds before anything is solved.
     void (*approachContacts)(const BodyState<Real>*, const ContactLanes<Real>*, BounceLanes<Real>*, std::size_t);
     void (*scaleContacts)(ContactLanes<Real>*, FrictionLanes<Real>*, std::size_t, Real by);
     /// Moves the separations on to the end of the step, and sets a bit for each lane that pushed.
-    void (*carryContacts)(const BodyState<Real>*, ContactLanes<Real>*, const BounceLanes<Real>*, std::uint32_t* bits,
+    void (*carryContacts)(const BodyState<Real>*, ContactLanes<Real>*, const FrictionLanes<Real>*, std::uint32_t* bits,
                           std::size_t);
-    void (*noteImpulses)(const ContactLanes<Real>*, BounceLanes<Real>*, std::size_t);
-    void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, BounceLanes<Real>*, std::size_t,
-                           const StepConstants<Real>&);
+    void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, const BounceLanes<Real>*,
+                           std::size_t, const StepConstants<Real>&);
     void (*solveJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&, bool push);
     /// Turns the arms to where the bodies are now; what the accumulated impulses warm follows.
     void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t);

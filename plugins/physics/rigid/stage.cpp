@@ -437,20 +437,27 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
     for (Index i = 0; i < places.size(); ++i) {
         if (places[i] == kFree || !collider_.contacts()[i].touching) continue;
         RigidContact c = collider_.contacts()[i];
-        if (isPlaced(places[i]) && active_ == Active::Single) single_.fetch(c, places[i]);
-        if (isPlaced(places[i]) && active_ == Active::Double) double_.fetch(c, places[i]);
+        double totals[2];
+        const auto fetch = [&](const auto& solver) {
+            solver.fetch(c, places[i]);
+            for (int k = 0; k < 2; ++k) totals[k] = static_cast<double>(solver.total(places[i], k));
+        };
+        // Of what sleeps, or is not pushed, each substep is like the last.
+        for (int k = 0; k < 2; ++k) totals[k] = substeps_ * static_cast<double>(c.impulse[k]);
+        if (isPlaced(places[i]) && active_ == Active::Single) fetch(single_);
+        if (isPlaced(places[i]) && active_ == Active::Double) fetch(double_);
         const Index a = collider_.bodies()[c.bodyA].handle, b = collider_.bodies()[c.bodyB].handle;
         const Pose& pose = collider_.poses()[c.bodyA];
         const Vec2f normal = turned(pose.turn, c.normal);
         for (int k = 0; k < c.count; ++k) {
-            if (c.resolve && !(c.impulse[k] > 0) && c.separation[k] > c.slop) continue;  // only near
+            if (c.resolve && !(totals[k] > 0) && c.separation[k] > c.slop) continue;  // only near
             const Vec2f on = turned(pose.turn, c.onA[k]);
             Contact contact;
             contact.bodyA = b, contact.bodyB = a;
             contact.point = Vec2(pose.x + on.x, pose.y + on.y);
             contact.normal = Vec2(normal.x, normal.y);
             contact.penetration = -static_cast<double>(c.separation[k]);
-            contact.impulse = substeps_ * static_cast<double>(c.impulse[k]);
+            contact.impulse = totals[k];
             reports.push_back(contact);
         }
         touching.push_back((static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b));

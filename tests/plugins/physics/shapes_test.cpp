@@ -145,6 +145,41 @@ TEST(Shapes, EventsTellWhenATouchBeginsAndEnds)
     EXPECT_NEAR(begins, ends, 1);
 }
 
+TEST(Shapes, ContactsTellAllThatTheyGaveInAStep)
+{
+    // Without friction m (v - v before - g dt) is the sum of impulses along normals: in hits, bounces and at rest.
+    const double g = 300, masses[] = {1, 3, 0.5};
+    for (const double restitution : {0.0, 0.8}) {
+        auto world = makeWorld({0, g}, 0, restitution);
+        world->addRigidBody(simple(ground(0)));
+        world->addRigidBody(disc({0, -40}, 10, masses[0]));
+        world->addRigidBody(simple(box({3, -90}, 20, 20, masses[1], 0.3)));
+        world->addRigidBody(disc({-2, -130}, 8, masses[2]));
+        int hits = 0;
+        for (int i = 0; i < 180; ++i) {
+            const auto speeds = world->bodies().velocity;
+            std::vector<Vec2> given(4, Vec2(0, 0)), before(speeds.begin(), speeds.end());
+            world->step(kStep);
+            for (const Contact& c : world->contacts())
+                given[c.bodyA] += c.impulse * c.normal, given[c.bodyB] -= c.impulse * c.normal;
+            for (BodyHandle body = 1; body < 4; ++body) {
+                const Vec2 change = world->bodies().velocity[body] - before[body] - Vec2(0, g * kStep);
+                EXPECT_NEAR((masses[body - 1] * change - given[body]).norm(), 0, 1e-5 * (1 + given[body].norm()))
+                    << "body " << body << ", step " << i;
+                hits += given[body].norm() > 10 * masses[body - 1] * g * kStep;
+            }
+            for (const ContactEvent& event : world->contactEvents()) {
+                if (!event.begins) continue;
+                double sum = 0;
+                for (const Contact& c : world->contacts())
+                    if (std::minmax(c.bodyA, c.bodyB) == std::minmax(event.bodyA, event.bodyB)) sum += c.impulse;
+                EXPECT_NEAR(event.impulse, sum, 1e-6 * (1 + sum));
+            }
+        }
+        EXPECT_GT(hits, 2);
+    }
+}
+
 TEST(Shapes, MomentumIsKeptToTheLastBits)
 {
     auto world = makeWorld({0, 0}, 0.4, 0.6);
