@@ -20,10 +20,7 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool meetsItself(const BodyRecord& body)
-{
-    return (body.matter.selfCollision || body.pieceCount > 1) && !body.fixed && body.enabled;
-}
+bool meetsItself(const BodyRecord& body) { return body.meetsOwn() && !body.fixed && body.enabled; }
 
 ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSettings& settings)
 {
@@ -32,7 +29,7 @@ ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSett
     ContactPoint pattern;
     const double lengthA = a.fixed ? b.length : a.length, lengthB = b.fixed ? a.length : b.length;
     pattern.slop = kSlopPerLength * std::min(lengthA, lengthB);
-    pattern.thickness = a.matter.thickness + b.matter.thickness;
+    pattern.thickness = a.thickness() + b.thickness();
     pattern.friction = pair.friction;
     pattern.restitution = pair.restitution;
     pattern.resolve = settings.resolveCollisions && !a.sensor && !b.sensor;
@@ -47,8 +44,7 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     const auto start = std::chrono::steady_clock::now();
     // Nothing can meet where there is only one body.
     std::size_t bodies = 0;
-    for (const BodyRecord& body : state.bodies)
-        bodies += body.points.count == 0 ? 0 : body.matter.selfCollision || body.pieceCount > 1 ? 2 : 1;
+    for (const BodyRecord& body : state.bodies) bodies += body.points.count == 0 ? 0 : body.meetsOwn() ? 2 : 1;
     lonely_ = bodies < 2;
     softPairs_.clear();
     if (lonely_) {
@@ -80,7 +76,7 @@ void ContactFinder::readBorders(State& state)
     const auto comesNear = [&](Index handle, Index other) {
         const BodyRecord &body = state.bodies[handle], &points = state.bodies[other];
         if (handle == other || points.points.count > kManyPoints) return true;
-        const double margin = motions_[other].range + body.matter.thickness + points.matter.thickness;
+        const double margin = motions_[other].range + body.thickness() + points.thickness();
         const Box near = motions_[handle].reach.inflated(margin);
         for (Index p = points.points.first; p < points.points.end(); ++p)
             if (near.contains(state.points.position[p])) return true;
@@ -156,7 +152,7 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
             continue;
         const ContactPoint pattern = patternOf(a, b, settings);
         if (pair.a == pair.b) {
-            if (a.matter.selfCollision) narrow.collideSelf(pair.a, pattern, contacts);
+            if (a.soft->matter.selfCollision) narrow.collideSelf(pair.a, pattern, contacts);
             continue;
         }
         narrow.collide(pair.a, pair.b, pattern, contacts);
@@ -251,8 +247,7 @@ void ContactFinder::predictBody(const State& state, const BodyRecord& body, cons
     Box moved = motion.reach;
     moved.min += step, moved.max += step;
     motion.reach.extend(moved);
-    motion.reach =
-        motion.reach.inflated(turning + motion.stray + 4 * kSlopPerLength * body.length + body.matter.thickness);
+    motion.reach = motion.reach.inflated(turning + motion.stray + 4 * kSlopPerLength * body.length + body.thickness());
 }
 
 bool ContactFinder::strayed(const State& state, double elapsed) const
@@ -267,7 +262,7 @@ bool ContactFinder::strayed(const State& state, double elapsed) const
                                              elapsed, body.nodes.count);
         if (body.rigid) {
             const double turned = std::abs(nodes.angle[n] - angle_[n] - elapsed * omega_[n]);
-            if (std::sqrt(off) + body.radius * turned > budgets_[handle]) return true;
+            if (std::sqrt(off) + static_cast<double>(body.radius) * turned > budgets_[handle]) return true;
         } else if (off > budgets_[handle] * budgets_[handle]) {
             return true;
         }

@@ -1,5 +1,7 @@
 #include "force_fields.hpp"
 
+#include "outline.hpp"
+
 namespace jet::physics {
 
 namespace {
@@ -60,8 +62,10 @@ Vec2 ForceFields::Field::acceleration(const Vec2& at, const Vec2& velocity, cons
     return Vec2(0, 0);
 }
 
-void ForceFields::act(State& state, const Field& field, const BodyRecord& body, const Vec2& weight, double h)
+void ForceFields::act(State& state, const RigidStage& rigid, const Field& field, Index handle, const Vec2& weight,
+                      double h)
 {
+    const BodyRecord& body = state.bodies[handle];
     Nodes& nodes = state.nodes;
     const auto pull = [&](Index node, const Vec2& at, double mass) {
         if (!field.covers(at)) return;
@@ -72,6 +76,11 @@ void ForceFields::act(State& state, const Field& field, const BodyRecord& body, 
     };
     if (!body.rigid) {
         for (Index n = body.nodes.first; n < body.nodes.end(); ++n) pull(n, nodes.position[n], nodes.mass[n]);
+    } else if (body.isLean()) {
+        const Vec2 centre = nodes.position[body.nodes.first], turn = nodes.rotation[body.nodes.first];
+        const PartRing ring = ringOf(rigid.onlyPart(handle));
+        for (Index i = 0; i < ring.count; ++i)
+            pull(body.nodes.first, centre + rotated(turn, ring.points[i]), body.mass / ring.count);
     } else if (body.points.count == 0) {
         pull(body.nodes.first, nodes.position[body.nodes.first], body.mass);
     } else {
@@ -80,11 +89,14 @@ void ForceFields::act(State& state, const Field& field, const BodyRecord& body, 
     }
 }
 
-void ForceFields::addForces(State& state, const Vec2& gravity, double h) const
+void ForceFields::addForces(State& state, const RigidStage& rigid, const Vec2& gravity, double h) const
 {
-    for (const Field& field : fields_)
-        for (const BodyRecord& body : state.bodies)
-            if (!body.fixed) act(state, field, body, body.gravityScale * gravity, h);
+    for (const Field& field : fields_) {
+        for (Index handle = 0; handle < state.bodies.size(); ++handle) {
+            const BodyRecord& body = state.bodies[handle];
+            if (!body.fixed) act(state, rigid, field, handle, body.gravityScale * gravity, h);
+        }
+    }
 }
 
 }  // namespace jet::physics

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "edge_grid.hpp"
+#include "rigid/stage.hpp"
 #include "state.hpp"
 
 namespace jet::physics {
@@ -16,7 +17,7 @@ public:
     Index count() const { return static_cast<Index>(fields_.size()); }
 
     /// Adds the forces of all fields to the nodes, for a substep of h.
-    void addForces(State&, const Vec2& gravity, double h) const;
+    void addForces(State&, const RigidStage&, const Vec2& gravity, double h) const;
 
     template <class Archive>
     void archive(Archive& with)
@@ -38,7 +39,7 @@ private:
         bool covers(const Vec2& at) const { return def.region.empty() || region.inside(at); }
         Vec2 acceleration(const Vec2& at, const Vec2& velocity, const Vec2& weight, double h) const;
     };
-    static void act(State&, const Field&, const BodyRecord&, const Vec2& weight, double h);
+    static void act(State&, const RigidStage&, const Field&, Index body, const Vec2& weight, double h);
 
     std::vector<Field> fields_;
 };

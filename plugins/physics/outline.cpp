@@ -6,8 +6,16 @@ namespace jet::physics {
 
 namespace {
 
-constexpr int kCorners = 16;   // of a circle
-constexpr double kBand = 0.4;  // of a chain's shortest side: depth of its band
+constexpr int kCorners = 16;             // of a circle
+constexpr int kHalf = kCorners / 2 + 1;  // of a capsule's end
+constexpr double kBand = 0.4;            // of a chain's shortest side: depth of its band
+
+/// A regular polygon of n corners has the area n/2 sin(2 pi / n) r².
+double ringRadius(double radius)
+{
+    static const double inscribed = kCorners / (2 * kPi) * direction(2 * kPi / kCorners).y();
+    return radius / std::sqrt(inscribed);
+}
 
 /// Appends `count` points of an arc from `start` over `sweep` radians, both ends included where it is not closed.
 void addArc(std::vector<Vec2>& ring, const Vec2& centre, double radius, double start, double sweep, int count,
@@ -46,17 +54,50 @@ std::vector<Vec2> outlineOf(const ShapeDef& shape)
     if (shape.kind == ShapeDef::Kind::Polygon) return shape.points;
     if (shape.kind == ShapeDef::Kind::Chain) return bandOf(shape.points);
     std::vector<Vec2> ring;
-    // A regular polygon of n corners has the area n/2 sin(2 pi / n) r².
-    const double inscribed = kCorners / (2 * kPi) * direction(2 * kPi / kCorners).y();
-    const double radius = shape.radius / std::sqrt(inscribed);
+    const double radius = ringRadius(shape.radius);
     if (shape.kind == ShapeDef::Kind::Circle) {
         addArc(ring, shape.points[0], radius, 0, 2 * kPi, kCorners, true);
         return ring;
     }
     const Vec2 axis = shape.points[1] - shape.points[0];
     const double angle = angleOf(axis.y(), axis.x());
-    addArc(ring, shape.points[1], radius, angle - kPi / 2, kPi, kCorners / 2 + 1, false);
-    addArc(ring, shape.points[0], radius, angle + kPi / 2, kPi, kCorners / 2 + 1, false);
+    addArc(ring, shape.points[1], radius, angle - kPi / 2, kPi, kHalf, false);
+    addArc(ring, shape.points[0], radius, angle + kPi / 2, kPi, kHalf, false);
+    return ring;
+}
+
+Index ringSizeOf(const Part& part)
+{
+    return part.count == 1 ? kCorners : part.count == 2 ? 2 * kHalf : static_cast<Index>(part.count);
+}
+
+PartRing ringOf(const Part& part)
+{
+    static const std::array<Vec2, kCorners> circle = [] {
+        std::array<Vec2, kCorners> at;
+        for (int i = 0; i < kCorners; ++i) at[static_cast<std::size_t>(i)] = direction(2 * kPi * i / kCorners);
+        return at;
+    }();
+    const auto corner = [&](int i) { return Vec2(part.corners[i].x, part.corners[i].y); };
+    PartRing ring;
+    if (part.count > 2) {
+        for (int i = 0; i < part.count; ++i) ring.points[ring.count++] = corner(part.reversed ? part.count - 1 - i : i);
+        ring.outward = part.reversed ? 1 : -1;
+        return ring;
+    }
+    const double radius = ringRadius(static_cast<double>(part.radius));
+    if (part.count == 1) {
+        for (const Vec2& at : circle) ring.points[ring.count++] = corner(0) + radius * at;
+        return ring;
+    }
+    const Vec2 axis = (corner(1) - corner(0)).stableNormalized();
+    constexpr int kQuarter = kCorners / 4;
+    const auto addEnd = [&](int end, int from) {
+        for (int i = 0; i < kHalf; ++i)
+            ring.points[ring.count++] =
+                corner(end) + radius * rotated(axis, circle[static_cast<std::size_t>((from + i) % kCorners)]);
+    };
+    addEnd(1, 3 * kQuarter), addEnd(0, kQuarter);
     return ring;
 }
 

@@ -13,25 +13,25 @@ namespace {
 constexpr Index kManyWalls = 24;  // beyond, walls are looked up in the body's grid
 constexpr int kMostPieces = 32;   // of a ray through a large outline
 
+Vec2 cornerOf(const Part& part, int i) { return {part.corners[i].x, part.corners[i].y}; }
+
 }  // namespace
 
 void Queries::addSoft(Index body)
 {
-    makeRoom(1, firstItem_, items_);
-    firstItem_.push_back(static_cast<Index>(items_.size()));
-    Item item;
-    item.body = body;
-    items_.push_back(item);
+    makeRoom(1, items_);
+    items_.push_back({body, kNone, {}});
     outdated_ = true;
 }
 
 void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def)
 {
-    makeRoom(1, firstItem_, items_);
-    firstItem_.push_back(static_cast<Index>(items_.size()));
     outdated_ = true;
     const BodyRecord& body = state.bodies[handle];
-    Item item;
+    anySingle_ |= body.single;
+    if (body.single) return;
+    makeRoom(1, items_);
+    Kept item;
     item.body = handle;
     if (def.shapes.empty() || !def.borders.empty()) {
         items_.push_back(item);
@@ -57,6 +57,33 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
     }
 }
 
+Queries::Item Queries::itemAt(std::size_t index) const
+{
+    if (index >= items_.size()) return itemOf(static_cast<Index>(index - items_.size()));
+    const Kept& kept = items_[index];
+    Item item;
+    item.body = kept.body, item.walls = kept.walls;
+    item.isRound = kept.round != kNone;
+    if (item.isRound) item.round = rounds_[kept.round];
+    return item;
+}
+
+/// Of a body of one shape.
+Queries::Item Queries::itemOf(Index body) const
+{
+    Item item;
+    item.body = body;
+    const Part& part = rigid_->onlyPart(body);
+    item.isRound = part.count < 3;
+    if (item.isRound) {
+        const Vec2f &a = part.corners[0], &b = part.corners[part.count - 1];
+        item.round = {{a.x, a.y}, {b.x, b.y}, static_cast<double>(part.radius)};
+    } else {
+        item.part = &part;
+    }
+    return item;
+}
+
 Queries::Frame Queries::frameOf(const State& state, const Item& item)
 {
     const BodyRecord& body = state.bodies[item.body];
@@ -72,12 +99,20 @@ Range Queries::wallsOf(const State& state, const Item& item)
 Box Queries::boxOf(const State& state, const Item& item) const
 {
     Box box;
-    if (const Round* round = roundOf(item)) {
-        const Frame frame = frameOf(state, item);
-        box.extend(frame.out(round->a)), box.extend(frame.out(round->b));
-        return box.inflated(round->radius);
+    const Frame frame = frameOf(state, item);
+    if (item.isRound) {
+        box.extend(frame.out(item.round.a)), box.extend(frame.out(item.round.b));
+        return box.inflated(item.round.radius);
     }
-    if (item.whole()) return state.readings.bounds[item.body];
+    if (item.part != nullptr) {
+        for (int i = 0; i < item.part->count; ++i) box.extend(frame.out(cornerOf(*item.part, i)));
+        return box;
+    }
+    if (item.whole()) {
+        const Range& points = state.bodies[item.body].points;
+        for (Index p = points.first; p < points.end(); ++p) box.extend(state.points.position[p]);
+        return box;
+    }
     for (Index w = item.walls.first; w < item.walls.end(); ++w)
         box.extend(state.points.position[state.walls.first[w]]),
             box.extend(state.points.position[state.walls.second[w]]);
@@ -88,9 +123,14 @@ void Queries::update(const State& state)
 {
     if (!outdated_) return;
     outdated_ = false;
-    boxes_.resize(items_.size());
-    for (std::size_t i = 0; i < items_.size(); ++i)
-        boxes_[i] = state.bodies[items_[i].body].enabled ? boxOf(state, items_[i]) : Box();
+    const std::size_t kept = items_.size();
+    boxes_.assign(kept + (anySingle_ ? state.bodies.size() : 0), Box());
+    const auto take = [&](std::size_t index, Index body) {
+        if (state.bodies[body].enabled) boxes_[index] = boxOf(state, itemAt(index));
+    };
+    for (std::size_t i = 0; i < kept; ++i) take(i, items_[i].body);
+    for (Index body = 0; anySingle_ && body < state.bodies.size(); ++body)
+        if (state.bodies[body].single) take(kept + body, body);
     tree_.update(boxes_);
 }
 
@@ -104,6 +144,12 @@ bool Queries::seen(const State& state, Index handle, const QueryFilter& filter)
 template <class Visit>
 void Queries::eachEdge(const State& state, const Item& item, const Box& region, Visit&& visit)
 {
+    if (item.part != nullptr) {
+        const int count = item.part->count;
+        for (int i = 0; i < count; ++i)
+            visit(QueryEdge{cornerOf(*item.part, i), cornerOf(*item.part, (i + 1) % count), -1});
+        return;
+    }
     const BodyRecord& body = state.bodies[item.body];
     const std::vector<Vec2>& at = state.gridFrame(body);
     const Range walls = wallsOf(state, item);
@@ -120,8 +166,13 @@ void Queries::eachEdge(const State& state, const Item& item, const Box& region, 
 
 bool Queries::inside(const State& state, const Item& item, const Vec2& at) const
 {
-    if (const Round* round = roundOf(item))
-        return (at - nearestOnSegment(at, round->a, round->b)).norm() <= round->radius;
+    if (item.isRound) return (at - nearestOnSegment(at, item.round.a, item.round.b)).norm() <= item.round.radius;
+    if (item.part != nullptr) {
+        bool behindAll = true;
+        eachEdge(state, item, Box(),
+                 [&](const QueryEdge& edge) { behindAll &= cross(edge.b - edge.a, at - edge.a) >= 0; });
+        return behindAll;
+    }
     const BodyRecord& body = state.bodies[item.body];
     if (item.whole() && body.rigid) return gridOf(state, body).inside(at);
     const Range walls = wallsOf(state, item);
@@ -140,8 +191,8 @@ std::optional<QueryHit> Queries::castRay(const State& state, const Item& item, c
     const Frame frame = frameOf(state, item);
     const Vec2 start = frame.in(from), along = unrotated(frame.turn, way);
     std::optional<QueryHit> best;
-    if (const Round* round = roundOf(item)) {
-        best = meetSegment(start, along, round->a, round->b, round->radius);
+    if (item.isRound) {
+        best = meetSegment(start, along, item.round.a, item.round.b, item.round.radius);
     } else {
         const int pieces = static_cast<int>(std::clamp<Index>(wallsOf(state, item).count / kManyWalls, 1, kMostPieces));
         for (int i = 0; i < pieces; ++i) {
@@ -167,7 +218,7 @@ std::optional<CastHit> Queries::rayCast(const State& state, const Vec2& from, co
     tree_.along(
         from, way, 0, [&] { return best ? best->fraction : 1.0; },
         [&](std::uint32_t index) {
-            const Item& item = items_[index];
+            const Item item = itemAt(index);
             if (!seen(state, item.body, filter)) return;
             const auto hit = castRay(state, item, from, way, best ? best->fraction : 1.0);
             if (!hit || (best && (hit->at > best->fraction || (hit->at == best->fraction && item.body >= best->body))))
@@ -193,8 +244,8 @@ bool Queries::overlaps(const State& state, const Item& item, const CastShape& sh
         }
         return shape.contains(0.5 * (a + b));
     };
-    if (const Round* round = roundOf(item))
-        return within(round->a, round->b, round->radius) || (shape.closed && shape.contains(round->a));
+    if (item.isRound)
+        return within(item.round.a, item.round.b, item.round.radius) || (shape.closed && shape.contains(item.round.a));
     bool meets = false;
     eachEdge(state, item, shape.bounds(), [&](const QueryEdge& edge) { meets |= within(edge.a, edge.b, 0); });
     Vec2 middle(0, 0);
@@ -215,8 +266,8 @@ std::optional<QueryHit> Queries::castShape(const State& state, const Item& item,
         return QueryHit{0, middle, way.squaredNorm() > 0 ? Vec2(-way.normalized()) : Vec2(0, 0)};
     }
     std::optional<QueryHit> best;
-    if (const Round* round = roundOf(item)) {
-        best = castAt(shape, along, round->a, round->b, round->radius);
+    if (item.isRound) {
+        best = castAt(shape, along, item.round.a, item.round.b, item.round.radius);
     } else {
         Box region = shape.bounds();
         region.extend(Vec2(region.min + along)), region.extend(Vec2(region.max + along));
@@ -241,7 +292,7 @@ std::optional<CastHit> Queries::shapeCast(const State& state, const ShapeDef& de
     tree_.along(
         bounds.center(), way, 0.5 * bounds.size().maxCoeff(), [&] { return best ? best->fraction : 1.0; },
         [&](std::uint32_t index) {
-            const Item& item = items_[index];
+            const Item item = itemAt(index);
             if (!seen(state, item.body, filter)) return;
             const auto hit = castShape(state, item, shape, way);
             if (!hit || (best && (hit->at > best->fraction || (hit->at == best->fraction && item.body >= best->body))))
@@ -254,8 +305,7 @@ std::optional<CastHit> Queries::shapeCast(const State& state, const ShapeDef& de
 bool Queries::meetsBox(const State& state, const Item& item, const Box& box) const
 {
     const Frame frame = frameOf(state, item);
-    if (const Round* round = roundOf(item))
-        return boxDistance(box, frame.out(round->a), frame.out(round->b)) <= round->radius;
+    if (item.isRound) return boxDistance(box, frame.out(item.round.a), frame.out(item.round.b)) <= item.round.radius;
     Box local;
     for (const Vec2& corner : {box.min, box.max, Vec2(box.min.x(), box.max.y()), Vec2(box.max.x(), box.min.y())})
         local.extend(frame.in(corner));
@@ -270,7 +320,7 @@ std::vector<BodyHandle> Queries::overlapping(const State& state, const Box& box,
 {
     std::vector<BodyHandle> found;
     tree_.visit(box, [&](std::uint32_t index) {
-        const Item& item = items_[index];
+        const Item item = itemAt(index);
         if (seen(state, item.body, filter) && meetsBox(state, item, box)) found.push_back(item.body);
     });
     std::sort(found.begin(), found.end());
@@ -283,12 +333,12 @@ std::optional<QueryHit> Queries::nearestOf(const State& state, const Item& item,
     const Frame frame = frameOf(state, item);
     const Vec2 point = frame.in(scene);
     std::optional<QueryHit> best;
-    if (const Round* round = roundOf(item)) {
-        const Vec2 axis = nearestOnSegment(point, round->a, round->b);
+    if (item.isRound) {
+        const Vec2 axis = nearestOnSegment(point, item.round.a, item.round.b);
         const Vec2 off = point - axis;
         const double away = off.norm();
         const Vec2 normal = away > 0 ? Vec2(off / away) : Vec2(0, -1);
-        best = QueryHit{std::abs(away - round->radius), axis + round->radius * normal, normal};
+        best = QueryHit{std::abs(away - item.round.radius), axis + item.round.radius * normal, normal};
         if (best->at > reach) return std::nullopt;
     } else {
         const Vec2 span(reach, reach);
@@ -311,7 +361,7 @@ std::optional<CastHit> Queries::nearest(const State& state, const Vec2& point, d
     tree_.around(
         point, [&] { return least; },
         [&](std::uint32_t index) {
-            const Item& item = items_[index];
+            const Item item = itemAt(index);
             if (!seen(state, item.body, filter)) return;
             const auto hit = nearestOf(state, item, point, least);
             if (!hit || (best && (hit->at > least || (hit->at == least && item.body >= best->body)))) return;
@@ -324,8 +374,12 @@ std::optional<CastHit> Queries::nearest(const State& state, const Vec2& point, d
 bool Queries::contains(const State& state, Index body, const Vec2& point) const
 {
     if (!state.bodies[body].enabled) return false;
-    for (Index i = firstItem_[body]; i < items_.size() && items_[i].body == body; ++i)
-        if (inside(state, items_[i], frameOf(state, items_[i]).in(point))) return true;
+    const auto within = [&](const Item& item) { return inside(state, item, frameOf(state, item).in(point)); };
+    if (state.bodies[body].single) return within(itemOf(body));
+    const auto first = std::lower_bound(items_.begin(), items_.end(), body,
+                                        [](const Kept& item, Index handle) { return item.body < handle; });
+    for (auto i = first; i != items_.end() && i->body == body; ++i)
+        if (within(itemAt(static_cast<std::size_t>(i - items_.begin())))) return true;
     return false;
 }
 

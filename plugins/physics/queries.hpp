@@ -4,6 +4,7 @@
 
 #include "query.hpp"
 #include "query_tree.hpp"
+#include "rigid/stage.hpp"
 #include "state.hpp"
 
 #include <jet/physics.hpp>
@@ -12,13 +13,15 @@ namespace jet::physics {
 
 class Queries {
 public:
+    /// Where the parts of rigid bodies are.
+    void use(const RigidStage& rigid) { rigid_ = &rigid; }
     /// After a body was added.
     void addSoft(Index body);
     void addRigid(const State&, Index body, const RigidBodyDef&);
 
     /// Bodies have moved, come or gone since the last query.
     void outdate() { outdated_ = true; }
-    /// Points and readings must be true.
+    /// Points must be true.
     void update(const State&);
 
     std::optional<CastHit> rayCast(const State&, const Vec2& from, const Vec2& way, const QueryFilter&) const;
@@ -29,22 +32,30 @@ public:
 
     std::size_t bytes() const
     {
-        return items_.capacity() * sizeof(Item) + rounds_.capacity() * sizeof(Round) +
+        return items_.capacity() * sizeof(Kept) + rounds_.capacity() * sizeof(Round) +
                boxes_.capacity() * (sizeof(Box) + 100);
     }
 
 private:
-    /// An outline of a body, or a round shape of it.
-    struct Item {
+    /// An outline of a body, or a round shape of it, but for bodies of one shape, whose parts say enough.
+    struct Kept {
         Index body = 0;
         Index round = kNone;  // into rounds_
         Range walls;          // of a shape; none: all walls of the body
-        bool whole() const { return round == kNone && walls.count == 0; }
     };
     /// All within the radius of a segment, in the body's frame.
     struct Round {
         Vec2 a, b;
         double radius = 0;
+    };
+    /// One of them, or the part of a body of one shape.
+    struct Item {
+        Index body = 0;
+        Range walls;
+        const Part* part = nullptr;  // a polygon
+        bool isRound = false;
+        Round round;
+        bool whole() const { return !isRound && part == nullptr && walls.count == 0; }
     };
     /// From the scene to the frame the item's points are in.
     struct Frame {
@@ -53,10 +64,12 @@ private:
         Vec2 out(const Vec2& p) const { return at + rotated(turn, p); }
     };
 
+    /// The kept ones, then bodies by their handles, of which those of one shape are items.
+    Item itemAt(std::size_t index) const;
+    Item itemOf(Index body) const;
     static bool seen(const State&, Index body, const QueryFilter&);
     static Frame frameOf(const State&, const Item&);
     static Range wallsOf(const State&, const Item&);
-    const Round* roundOf(const Item& item) const { return item.round == kNone ? nullptr : &rounds_[item.round]; }
     Box boxOf(const State&, const Item&) const;
     /// Calls visit(edge) for each side of the item that may meet the region, which is in the item's frame.
     template <class Visit>
@@ -69,9 +82,10 @@ private:
     /// Fraction is the distance.
     std::optional<QueryHit> nearestOf(const State&, const Item&, const Vec2& point, double reach) const;
 
-    std::vector<Item> items_;
+    const RigidStage* rigid_ = nullptr;
+    std::vector<Kept> items_;  // ascending by bodies
     std::vector<Round> rounds_;
-    std::vector<Index> firstItem_;  // [bodies]
+    bool anySingle_ = false;  // is there a body of one shape?
     std::vector<Box> boxes_;
     QueryTree tree_;
     bool outdated_ = true;

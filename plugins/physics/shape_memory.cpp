@@ -124,8 +124,8 @@ soft::Cloud ShapeMemory::cloudOf(State& state, const Lattice& lattice)
     if (change_.size() < count) change_.resize(count);
     if (lattice.nodes.empty()) {
         const Index first = body.nodes.first;
-        return {nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first], body.restArms[0].data(),
-                count};
+        return {nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first],
+                body.soft->restArms[0].data(), count};
     }
     position_.clear(), velocity_.clear(), mass_.clear();
     for (const Index n : lattice.nodes)
@@ -137,7 +137,7 @@ void ShapeMemory::look(State& state, double dt)
 {
     for (Lattice& lattice : lattices_) {
         // What is nailed down has no shape of its own; neither has what flows.
-        lattice.relaxed = state.bodies[lattice.body].matter.yield > 0 || anyPinned(state, lattice);
+        lattice.relaxed = state.bodies[lattice.body].soft->matter.yield > 0 || anyPinned(state, lattice);
         if (lattice.relaxed) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);

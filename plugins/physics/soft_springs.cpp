@@ -395,8 +395,9 @@ void SoftSprings::flow(const State& state, double dt)
 {
     for (Index body = 0; body < meshes_.size(); ++body) {
         Mesh& mesh = meshes_[body];
-        if (mesh.springs.count == 0 || !(state.bodies[body].matter.yield > 0) || !state.bodies[body].enabled) continue;
-        const SoftMatter& matter = state.bodies[body].matter;
+        if (mesh.springs.count == 0 || !state.bodies[body].enabled) continue;
+        const SoftMatter& matter = state.bodies[body].soft->matter;
+        if (!(matter.yield > 0)) continue;
         const double part = 1 - decay(matter.creep * dt);
         bool flowed = false;
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {

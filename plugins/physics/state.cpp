@@ -4,20 +4,19 @@
 
 namespace jet::physics {
 
-void Nodes::addParticle(Index ofBody, const Vec2& at, double nodeMass, double inverseMass)
+void Nodes::addParticle(const Vec2& at, double nodeMass, double inverseMass)
 {
     position.push_back(at);
     velocity.push_back(Vec2(0, 0));
     mass.push_back(nodeMass);
     invMass.push_back(inverseMass);
-    body.push_back(ofBody);
 }
 
-void Nodes::addRigid(Index ofBody, double nodeMass)
+void Nodes::addRigid(double nodeMass)
 {
-    addParticle(ofBody, Vec2(0, 0), nodeMass, 0);
-    for (Column<double>* column : {&angle, &omega, &invInertia, &torque}) column->cover(size());
-    for (Column<Vec2>* column : {&rotation, &force}) column->cover(size());
+    addParticle(Vec2(0, 0), nodeMass, 0);
+    for (Column<double>* column : {&angle, &omega, &invInertia}) column->cover(size());
+    rotation.cover(size());
 }
 
 void updatePoints(State& state)
@@ -49,7 +48,7 @@ void readSoft(State& state, Index handle)
 {
     const BodyRecord& body = state.bodies[handle];
     if (body.nodes.count == 0) return;
-    const soft::MassSums sums = soft::massSums(state.nodes, body.nodes, body.restArms.data());
+    const soft::MassSums sums = soft::massSums(state.nodes, body.nodes, body.soft->restArms.data());
     double& angle = state.readings.angle[handle];
     // Of what was before only the whole turns count, so that a restored state reads the same bits.
     const double fit = angleOf(sums.across, sums.along);

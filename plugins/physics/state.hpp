@@ -25,19 +25,20 @@ struct Nodes {
     std::vector<Vec2> velocity;   // units / s
     std::vector<double> mass;     // mass units
     std::vector<double> invMass;  // 0: never moves
-    std::vector<Index> body;
-    // Only rows up to that of the last rigid body.
+    // Only rows up to that of the last rigid body; torques, and forces of all, once there are any.
     Column<double> angle{0};            // radians since the start; 0 for particles
     Column<double> omega{0};            // rad / s; 0 for particles
     Column<Vec2> rotation{Vec2(1, 0)};  // (cos, sin) of angle
     Column<double> invInertia{0};       // 0: never turns
     Column<double> torque{0};
-    Column<Vec2> force{Vec2(0, 0)};  // of applyForce and actuators, for this step; rows of particles once there are any
+    Column<Vec2> force{Vec2(0, 0)};  // of applyForce and actuators, for this step
 
     std::size_t size() const { return position.size(); }
-    void addParticle(Index ofBody, const Vec2& at, double nodeMass, double inverseMass);
+    void addParticle(const Vec2& at, double nodeMass, double inverseMass);
     /// One that may turn, and does not move yet.
-    void addRigid(Index ofBody, double nodeMass);
+    void addRigid(double nodeMass);
+    /// Room for forces and torques on all.
+    void coverForces() { force.cover(size()), torque.cover(rotation.size()); }
 
     Vec2 velocityAt(Index node, const Vec2& arm) const { return velocity[node] + omega[node] * perpendicular(arm); }
     void applyImpulse(Index node, const Vec2& arm, const Vec2& impulse)
@@ -78,40 +79,54 @@ struct Range {
     Index end() const { return first + count; }
 };
 
-struct BodyRecord {
-    bool rigid = false, fixed = false, sensor = false;
-    bool simple = false;     // rigid, of convex parts: meets its like in rigid/, not by points and walls
-    bool wide = false;       // soft: meets its like in soft/contacts.hpp
-    bool kinematic = false;  // moves with its velocity, and nothing pushes it
-    bool enabled = true;     // may move, meet and be seen
-    bool drives = false;     // kinematic while it is enabled
-    bool fixedRotation = false;
-    bool asleep = false;  // rigid: rests, and is left out until something wakes it
-    std::uint32_t layer = 1;
-    Index material = 0;
-    double gravityScale = 1;
-    double mass = 0;
-    double second = 0;    // rigid: moment of inertia of a unit of mass, units²
-    double length = 1;    // typical size, scene units: tolerances are fractions of it
-    double restArea = 0;  // soft: inside the borders at rest, units²
+/// What only soft bodies have.
+struct SoftRecord {
     SoftMatter matter;
-    double radius = 0;  // rigid: farthest point from the centre, scene units
-    Range nodes, points, walls;
+    double restArea = 0;            // inside the borders at rest, units²
     Range springs, angularSprings;  // into SoftSprings
-    bool open = false;              // soft: torn at its border, which lets gas out
+    bool open = false;              // torn at its border, which lets gas out
     Index pieceCount = 1;
     std::vector<Index> pieces;   // [particles] of a torn body; empty: whole
-    std::vector<Vec2> restArms;  // soft: particles from the centre of mass at rest
-    // Rigid: in the node's frame, and null until gridOf() is asked; soft: in the scene's, as of the last detection.
-    mutable std::unique_ptr<EdgeGrid> grid;
+    std::vector<Vec2> restArms;  // particles from the centre of mass at rest
 };
 
-/// What is read after a step, one entry a body.
+struct BodyRecord {
+    bool rigid : 1 = false, fixed : 1 = false, sensor : 1 = false;
+    bool simple : 1 = false;     // rigid, of convex parts: meets its like in rigid/, not by points and walls
+    bool single : 1 = false;     // simple, of one shape, and may move: its part tells its outline
+    bool wide : 1 = false;       // soft: meets its like in soft/contacts.hpp
+    bool kinematic : 1 = false;  // moves with its velocity, and nothing pushes it
+    bool enabled : 1 = true;     // may move, meet and be seen
+    bool drives : 1 = false;     // kinematic while it is enabled
+    bool fixedRotation : 1 = false;
+    bool asleep : 1 = false;  // rigid: rests, and is left out until something wakes it
+    Index material = 0;
+    std::uint32_t layer = 1;
+    Range nodes, points, walls;
+    float radius = 0;   // rigid: farthest point from the centre, scene units
+    double length = 1;  // typical size, scene units: tolerances are fractions of it
+    double gravityScale = 1;
+    double mass = 0;
+    double second = 0;                 // rigid: moment of inertia of a unit of mass, units²
+    std::unique_ptr<SoftRecord> soft;  // of soft bodies
+    // Rigid: in the node's frame, and null until gridOf() is asked; soft: in the scene's, as of the last detection.
+    mutable std::unique_ptr<EdgeGrid> grid;
+
+    /// Has it no points and walls, as nobody needs them?
+    bool isLean() const { return single && points.count == 0; }
+    double thickness() const { return soft ? soft->matter.thickness : 0; }
+    /// Does its border meet itself, or one of its pieces another?
+    bool meetsOwn() const { return soft && (soft->matter.selfCollision || soft->pieceCount > 1); }
+};
+
+/// What is read after a step, one entry a body. Where nothing goes by points and walls, nodes are bodies, and say the
+/// first four; the others are made for who looks at them.
 struct BodyReadings {
     std::vector<Vec2> position, velocity;
     std::vector<double> angle, omega;
     std::vector<Box> bounds;
     std::vector<Index> firstPoint{0};  // [bodies + 1]
+    std::vector<Vec2> points;          // only there; else those of the state
 };
 
 /// Room that is used again each step. Not thread-local: a destructor of a thread would keep the library in memory.

@@ -18,6 +18,7 @@ World::World(const WorldSettings& settings) : settings_(settings)
     const soft::CloudKernels& clouds = avx2 ? soft::avx2::clouds : soft::sse2::clouds;
     shapes_.use(clouds), finder_.use(clouds);
     softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
+    queries_.use(rigid_);
 }
 
 BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
@@ -34,18 +35,16 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     body.nodes.first = static_cast<Index>(state_.nodes.size());
     body.points.first = static_cast<Index>(state_.points.size());
     body.walls.first = static_cast<Index>(state_.walls.size());
-    body.springs.first = springs_.springCount();
-    body.angularSprings.first = springs_.angularCount();
     makeRoom(1, state_.bodies);
     return state_.bodies.emplace_back(std::move(body));
 }
 
-void World::addPoint(Index node, const Vec2& local, const Vec2& position)
+void World::addPoint(const BodyRecord& body, Index node, const Vec2& local, const Vec2& position)
 {
     Points& points = state_.points;
     points.node.push_back(node);
     points.position.push_back(position);
-    if (state_.bodies.back().rigid) points.local.cover(points.size()), points.local[points.size() - 1] = local;
+    if (body.rigid) points.local.cover(points.size()), points.local[points.size() - 1] = local;
     points.collidable.push_back(0);
     if (!points.normal.empty()) points.normal.push_back(Vec2(0, 0));
 }
@@ -59,6 +58,8 @@ void World::keepNormals()
 }
 
 namespace {
+
+bool isSingle(const RigidBodyDef& def) { return def.borders.empty() && def.shapes.size() == 1 && !def.common.fixed; }
 
 /// Closed rings for what collides by points and walls: the borders, or those of the parts.
 std::vector<std::vector<Vec2>> outlinesOf(const RigidBodyDef& def)
@@ -81,12 +82,17 @@ double typicalLength(const Region& region, const Box& bounds)
 BodyHandle World::addSoftBody(const SoftBodyDef& def)
 {
     validate(def, settings_);
+    outlineAll();
     const auto handle = static_cast<BodyHandle>(state_.bodies.size());
     BodyRecord& body = newBody(def.common, false);
+    body.soft = std::make_unique<SoftRecord>();
+    SoftRecord& soft = *body.soft;
+    soft.springs = {springs_.springCount(), static_cast<Index>(def.springs.size())};
+    soft.angularSprings = {springs_.angularCount(), static_cast<Index>(def.angularSprings.size())};
     const auto count = static_cast<Index>(def.particles.size());
     body.nodes.count = body.points.count = count;
     Nodes& nodes = state_.nodes;
-    makeRoom(count, nodes.position, nodes.velocity, nodes.mass, nodes.invMass, nodes.body);
+    makeRoom(count, nodes.position, nodes.velocity, nodes.mass, nodes.invMass);
     Points& points = state_.points;
     makeRoom(count, points.node, points.position, points.collidable);
     if (!points.normal.empty()) makeRoom(count, points.normal);
@@ -96,15 +102,15 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     for (Index k = 0; k < count; ++k) {
         const Index i = particleOf[k];
         const bool moves = !def.common.fixed && (def.movable.empty() || def.movable[i] != 0);
-        state_.nodes.addParticle(handle, def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0);
+        state_.nodes.addParticle(def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0);
         nodeOf[i] = body.nodes.first + k;
     }
-    for (Index i = 0; i < count; ++i) addPoint(nodeOf[i], Vec2(0, 0), def.particles[i]);
+    for (Index i = 0; i < count; ++i) addPoint(body, nodeOf[i], Vec2(0, 0), def.particles[i]);
     body.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
     Vec2 centre(0, 0);
     for (Index i = 0; i < count; ++i) centre += def.masses[i] / body.mass * def.particles[i];
-    body.restArms.reserve(count);
-    for (Index i : particleOf) body.restArms.push_back(def.particles[i] - centre);
+    soft.restArms.reserve(count);
+    for (Index i : particleOf) soft.restArms.push_back(def.particles[i] - centre);
 
     std::vector<std::vector<Index>> rings = def.borders;
     for (auto& ring : rings)
@@ -115,13 +121,11 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     for (const Vec2& at : def.particles) bounds.extend(at);
     const Region region = measureRegion(state_, body);
     body.length = typicalLength(region, bounds);
-    body.restArea = region.area;
-    body.matter = def.matter;
+    soft.restArea = region.area;
+    soft.matter = def.matter;
 
     body.wide = soft::fitsContacts(state_, body);
     springs_.add(state_, def, handle, nodeOf);
-    body.springs.count = static_cast<Index>(def.springs.size());
-    body.angularSprings.count = static_cast<Index>(def.angularSprings.size());
     shapes_.add(state_, def, handle, nodeOf);
     queries_.addSoft(handle);
     return finishBody(def.common);
@@ -134,23 +138,18 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     BodyRecord& body = newBody(def.common, true);
     body.nodes.count = 1;
     Nodes& nodes = state_.nodes;
-    makeRoom(1, nodes.position, nodes.velocity, nodes.mass, nodes.invMass, nodes.body);
-    nodes.addRigid(handle, def.mass);
-    Points& points = state_.points;
-    std::vector<std::vector<Index>> rings;
-    for (const auto& border : outlinesOf(def)) {
-        makeRoom(border.size(), points.node, points.position, points.collidable);
-        auto& ring = rings.emplace_back(border.size());
-        std::iota(ring.begin(), ring.end(), static_cast<Index>(state_.points.size()));
-        for (const Vec2& at : border) addPoint(body.nodes.first, at, at);
-    }
-    body.points.count = static_cast<Index>(state_.points.size()) - body.points.first;
-    addBorders(state_, body, rings);
-    setRigidMass(body, def);
+    makeRoom(1, nodes.position, nodes.velocity, nodes.mass, nodes.invMass);
+    nodes.addRigid(def.mass);
+    body.single = isSingle(def);
+    const std::vector<std::vector<Vec2>> outlines = outlinesOf(def);
+    if (!lean_ || !body.single) keepOutline(body, outlines);
+    setRigidMass(body, def, outlines);
     body.simple = rigid_.add(state_, handle, def);
     if (body.simple) {
         body.grid.reset();
     } else {
+        outlineAll();
+        rebuildGrid(state_, body);
         keepNormals();
     }
     queries_.addRigid(state_, handle, def);
@@ -159,26 +158,27 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
 
 /// Puts the node at the centre of mass and makes the points local to it. Borders without area count as equal masses at
 /// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
-void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def)
+void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines)
 {
     const Region region = def.shapes.empty() ? measureRegion(state_, body) : measureShapes(def.shapes);
-    auto& local = state_.points.local;
+    double points = 0;
+    for (const auto& outline : outlines) points += static_cast<double>(outline.size());
     Box bounds;
     Vec2 centre(0, 0);
-    for (Index p = body.points.first; p < body.points.end(); ++p) {
-        bounds.extend(local[p]);
-        centre += local[p] / body.points.count;
-    }
+    for (const auto& outline : outlines)
+        for (const Vec2& at : outline) bounds.extend(at), centre += at / points;
     body.length = typicalLength(region, bounds);
     double second = region.inertia;
     if (region.area > 0) centre = region.centroid;
-    for (Index p = body.points.first; p < body.points.end(); ++p) {
-        local[p] -= centre;
-        body.radius = std::max(body.radius, local[p].norm());
-        if (!(region.area > 0)) second += local[p].squaredNorm() / body.points.count;
+    for (const auto& outline : outlines) {
+        for (const Vec2& at : outline) {
+            const Vec2 local = at - centre;
+            body.radius = std::max(body.radius, static_cast<float>(local.norm()));
+            if (!(region.area > 0)) second += local.squaredNorm() / points;
+        }
     }
     if (!(second > 1e-12 * body.length * body.length)) second = body.length * body.length / 6;
-    rebuildGrid(state_, body);
+    for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.local[p] -= centre;
 
     const Index node = body.nodes.first;
     body.mass = def.mass, body.second = second;
@@ -197,22 +197,29 @@ void World::applyMotion(BodyRecord& body)
     state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (body.mass * body.second) : 0;
 }
 
+void World::extendReadings()
+{
+    BodyReadings& readings = state_.readings;
+    makeRoom(state_.bodies.size() - readings.bounds.size(), readings.position, readings.velocity, readings.angle,
+             readings.omega, readings.bounds, readings.firstPoint);
+    for (std::size_t handle = readings.bounds.size(); handle < state_.bodies.size(); ++handle) {
+        readings.position.push_back(Vec2(0, 0));
+        readings.velocity.push_back(Vec2(0, 0));
+        readings.angle.push_back(0);
+        readings.omega.push_back(0);
+        readings.bounds.push_back(Box());
+        readings.firstPoint.push_back(state_.bodies[handle].points.end());
+    }
+}
+
 BodyHandle World::finishBody(const BodyCommon& common)
 {
     const auto handle = static_cast<BodyHandle>(state_.bodies.size() - 1);
     complex_ += !state_.bodies[handle].simple;
-    BodyReadings& readings = state_.readings;
-    makeRoom(1, readings.position, readings.velocity, readings.angle, readings.omega, readings.bounds,
-             readings.firstPoint);
-    readings.position.push_back(Vec2(0, 0));
-    readings.velocity.push_back(Vec2(0, 0));
-    readings.angle.push_back(0);
-    readings.omega.push_back(0);
-    readings.bounds.push_back(Box());
-    readings.firstPoint.push_back(static_cast<Index>(state_.points.size()));
+    if (!lean_) extendReadings();
     rate_ = -1;
     untold_ = true;
-    updateReading(state_, handle);
+    reread(handle);
     setVelocity(handle, common.velocity);
     setOmega(handle, common.omega);
     return handle;

@@ -85,10 +85,23 @@ public:
 
 private:
     BodyRecord& newBody(const BodyCommon&, bool rigid);
-    void addPoint(Index node, const Vec2& local, const Vec2& position);
+    void addPoint(const BodyRecord&, Index node, const Vec2& local, const Vec2& position);
     void keepNormals();
+    // Outlines, see world_outlines.cpp.
+    void keepOutline(BodyRecord&, const std::vector<std::vector<Vec2>>& outlines);
+    void copyOutline(BodyRecord&, const Points&, const Walls&);
+    void outlineAll();
+    void tellOutlines();
+    void tellOutline(Index body);
+    template <class Visit>
+    void eachPoint(Index body, Visit&& visit) const;
+    template <class Visit>
+    void eachWall(Index body, Visit&& visit) const;
+    /// What is told of the body, after it was changed between steps.
+    void reread(BodyHandle);
+    void extendReadings();
     BodyHandle finishBody(const BodyCommon&);
-    void setRigidMass(BodyRecord&, const RigidBodyDef&);
+    void setRigidMass(BodyRecord&, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines);
     void applyMotion(BodyRecord&);
     void enableSoft(BodyRecord&);
     BodyRecord& softBody(BodyHandle);
@@ -157,6 +170,8 @@ private:
     soft::Tears tears_;
     RigidStage rigid_;
     Queries queries_;
+    bool lean_ = true;                     // nothing has needed the points and walls of bodies of one shape
+    Index told_ = 0;                       // then: first bodies of which outlines are told as they are now
     bool stale_ = false;                   // points and readings are older than the nodes
     bool untold_ = false;                  // so are the reports
     Index complex_ = 0;                    // bodies that go by points and walls

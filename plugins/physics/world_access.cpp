@@ -8,8 +8,14 @@ namespace jet::physics {
 
 BodyStates World::bodies() const
 {
-    refresh();
     const BodyReadings& readings = state_.readings;
+    if (lean_) {
+        const_cast<World*>(this)->tellOutlines();  // caches of what the nodes say
+        const Nodes& nodes = state_.nodes;
+        return {nodes.position,  nodes.angle.values(), nodes.velocity, nodes.omega.values(),
+                readings.bounds, readings.firstPoint,  readings.points};
+    }
+    refresh();
     return {readings.position, readings.angle,      readings.velocity,     readings.omega,
             readings.bounds,   readings.firstPoint, state_.points.position};
 }
@@ -61,7 +67,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
     if (impulse != Vec2(0, 0)) rigid_.wake(state_, handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / body.mass;
-    updateReading(state_, handle);
+    reread(handle);
 }
 
 void World::setVelocity(BodyHandle handle, const Vec2& velocity)
@@ -70,12 +76,13 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
     requireFinite("a velocity", velocity);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
-    const Vec2 now = body.rigid ? state_.readings.velocity[handle] : soft::freeSums(state_.nodes, body.nodes).velocity;
+    const Vec2 now =
+        body.rigid ? state_.nodes.velocity[body.nodes.first] : soft::freeSums(state_.nodes, body.nodes).velocity;
     const Vec2 change = velocity - now;
     if (change != Vec2(0, 0)) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0 || body.kinematic) state_.nodes.velocity[n] += change;
-    updateReading(state_, handle);
+    reread(handle);
 }
 
 void World::setOmega(BodyHandle handle, double omega)
@@ -85,7 +92,7 @@ void World::setOmega(BodyHandle handle, double omega)
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     const soft::MassSums sums = body.rigid ? soft::MassSums() : soft::freeSums(state_.nodes, body.nodes);
-    const double change = omega - (body.rigid ? state_.readings.omega[handle] : sums.omega());
+    const double change = omega - (body.rigid ? state_.nodes.omega[body.nodes.first] : sums.omega());
     if (change != 0) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
         if (state_.nodes.invMass[n] == 0 && !body.kinematic) continue;
@@ -95,7 +102,7 @@ void World::setOmega(BodyHandle handle, double omega)
             state_.nodes.velocity[n] += change * perpendicular(state_.nodes.position[n] - sums.centre);
         }
     }
-    updateReading(state_, handle);
+    reread(handle);
 }
 
 void World::setPosition(BodyHandle handle, const Vec2& centre)
@@ -104,13 +111,14 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
     requirePlace("a position", centre);
     reportIfAsked();  // of where things were
     const BodyRecord& body = state_.bodies[handle];
-    const Vec2 shift = centre - state_.readings.position[handle];
+    const Vec2 shift =
+        centre - (body.rigid ? state_.nodes.position[body.nodes.first] : state_.readings.position[handle]);
     rigid_.disturb(handle);
     rouse(handle);
     softContacts_.carry(handle, shift.norm());
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) state_.nodes.position[n] += shift;
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.position[p] = state_.pointNow(p);
-    updateReading(state_, handle);
+    reread(handle);
     queries_.outdate();
     if (body.rigid && state_.nodes.invMass[body.nodes.first] == 0) rigid_.rearrange();
 }
@@ -125,8 +133,10 @@ void World::setGravity(const Vec2& gravity)
 bool World::springAlive(BodyHandle handle, std::uint32_t index) const
 {
     requireBelow("body", handle, bodyCount());
-    requireBelow("spring", index, state_.bodies[handle].springs.count);
-    return springs_.alive(state_.bodies[handle].springs.first + index);
+    const auto& soft = state_.bodies[handle].soft;
+    const Range springs = soft ? soft->springs : Range();
+    requireBelow("spring", index, springs.count);
+    return springs_.alive(springs.first + index);
 }
 
 template <class Self, class Archive>
@@ -140,18 +150,28 @@ void World::archive(Self& self, Archive& with)
     with(nodes.rotation.values());
     with(nodes.mass), with(nodes.invMass), with(nodes.invInertia.values());
     self.rigid_.archive(with);
-    with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
+    if (!self.lean_) with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
     self.springs_.archive(with);
     self.shapes_.archive(with);
     self.actuators_.archive(with);
     self.fields_.archive(with);
     for (BodyRecord& body : self.state_.bodies) {
-        with(body.mass), with(body.asleep);
-        SoftMatter& matter = body.matter;
+        with(body.mass), with(body.material), with(body.gravityScale), with(body.layer);
+        const auto flag = [&with](auto get, auto set) {
+            std::uint8_t value = get();
+            with(value);
+            set(value != 0);
+        };
+        flag([&] { return body.asleep; }, [&](bool is) { body.asleep = is; });
+        flag([&] { return body.sensor; }, [&](bool is) { body.sensor = is; });
+        flag([&] { return body.enabled; }, [&](bool is) { body.enabled = is; });
+        flag([&] { return body.kinematic; }, [&](bool is) { body.kinematic = is; });
+        flag([&] { return body.drives; }, [&](bool is) { body.drives = is; });
+        flag([&] { return body.fixedRotation; }, [&](bool is) { body.fixedRotation = is; });
+        if (!body.soft) continue;
+        SoftMatter& matter = body.soft->matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
-        with(body.material), with(body.gravityScale), with(body.sensor), with(body.layer);
-        with(body.enabled), with(body.kinematic), with(body.drives), with(body.fixedRotation);
     }
     self.archivePins(with);
     with.list(self.stepForces_.values(), [&](Vec2& force) { with(force); });
@@ -211,8 +231,9 @@ void World::restore(std::span<const std::byte> bytes)
     rate_ = -1;
     stale_ = untold_ = islandsKnown_ = eventsTold_ = false;
     touchedBefore_ = touching_;  // what was restored began before
+    told_ = 0;
     updatePoints(state_);
-    updateReadings(state_);
+    if (!lean_) updateReadings(state_);
 }
 
 }  // namespace jet::physics

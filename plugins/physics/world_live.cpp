@@ -66,7 +66,7 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
         applyMotion(body);
         if (body.fixedRotation && !body.drives) state_.nodes.omega[body.nodes.first] = 0;
         rigid_.set(state_, handle, common);
-        updateReading(state_, handle);
+        reread(handle);
     }
     rate_ = -1;
     queries_.outdate();
@@ -90,7 +90,7 @@ void World::setEnabled(BodyHandle handle, bool enabled)
     } else {
         enableSoft(body);
     }
-    updateReading(state_, handle);
+    reread(handle);
     rate_ = -1;
     queries_.outdate();
 }

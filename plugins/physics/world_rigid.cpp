@@ -1,6 +1,5 @@
 // Steps of simple rigid bodies alone, joints, and queries.
 #include "integrator.hpp"
-#include "outline.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -10,15 +9,17 @@ bool World::onlySimple() const { return complex_ == 0 && !rigid_.empty() && !act
 
 void World::stepSimple(double dt)
 {
-    std::vector<Vec2>& force = state_.nodes.force.values();
-    std::vector<double>& torque = state_.nodes.torque.values();
     // Without forces nothing of this is touched: threads have the nodes in their caches.
     const bool pushed = pushed_ || actuators_.any() || fields_.count() > 0;
+    if (pushed) state_.nodes.coverForces();
+    std::vector<Vec2>& force = state_.nodes.force.values();
+    std::vector<double>& torque = state_.nodes.torque.values();
     if (pushed) {
         for (Index n = 0; n < force.size(); ++n) force[n] = std::as_const(stepForces_)[n];
         std::fill(torque.begin(), torque.end(), 0.0);
         if (actuators_.any()) actuators_.addForces(state_);
-        if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
+        if (fields_.count() > 0)
+            fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
     }
     rigid_.step(state_, settings_, dt, stats_);
     restIfDue(dt);
@@ -30,6 +31,7 @@ void World::stepSimple(double dt)
     pushed_ = false;
     contacts_.points.clear();
     stale_ = untold_ = true;
+    told_ = 0;
 }
 
 void World::moveKinematic(double h)
@@ -50,7 +52,13 @@ void World::refresh() const
     auto& self = const_cast<World&>(*this);  // caches of what the nodes say
     self.stale_ = false;
     updatePoints(self.state_);
-    updateReadings(self.state_);
+    if (!lean_) updateReadings(self.state_);
+}
+
+void World::reread(BodyHandle handle)
+{
+    if (!lean_) return updateReading(state_, handle);
+    if (handle < told_) tellOutline(handle);
 }
 
 void World::reportIfAsked() const
@@ -60,32 +68,6 @@ void World::reportIfAsked() const
     auto& self = const_cast<World&>(*this);
     self.untold_ = false;
     self.report();
-}
-
-void World::nameFeatures(Contact& contact) const
-{
-    const BodyRecord &a = state_.bodies[contact.bodyA], &b = state_.bodies[contact.bodyB];
-    double nearest = std::numeric_limits<double>::infinity();
-    for (Index p = a.points.first; p < a.points.end(); ++p) {
-        const double away = (state_.points.position[p] - contact.point).squaredNorm();
-        if (away < nearest) nearest = away, contact.particle = p - a.points.first;
-    }
-    // Where a corner touches, the corner is the point; its place is known more exactly.
-    if (nearest < 1e-4 * a.length * a.length) contact.point = state_.points.position[a.points.first + contact.particle];
-    nearest = std::numeric_limits<double>::infinity();
-    for (Index w = b.walls.first; w < b.walls.end(); ++w) {
-        const Vec2& first = state_.points.position[state_.walls.first[w]];
-        const Vec2 edge = state_.points.position[state_.walls.second[w]] - first, off = contact.point - first;
-        const double squared = edge.squaredNorm();
-        if (!(squared > 0)) continue;
-        const double along = std::clamp(off.dot(edge) / squared, 0.0, 1.0), away = (off - along * edge).squaredNorm();
-        if (away >= nearest) continue;
-        nearest = away;
-        contact.wall = state_.walls.first[w] - b.points.first;
-        contact.edgeParameter = along;
-        const Vec2 outward = perpendicular(edge) * (state_.walls.outward[w] / std::sqrt(squared));
-        contact.penetration = outward.dot(contact.normal) > 0.999 ? -off.dot(outward) : contact.penetration;
-    }
 }
 
 std::span<const Contact> World::contacts() const

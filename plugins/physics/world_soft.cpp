@@ -2,6 +2,8 @@
 #include "validation.hpp"
 #include "world.hpp"
 
+#include <algorithm>
+
 namespace jet::physics {
 
 namespace {
@@ -30,7 +32,7 @@ BodyRecord& World::softBody(BodyHandle handle)
 
 const BodyRecord& World::softBody(BodyHandle handle) const { return const_cast<World*>(this)->softBody(handle); }
 
-std::span<const std::uint32_t> World::pieces(BodyHandle handle) const { return softBody(handle).pieces; }
+std::span<const std::uint32_t> World::pieces(BodyHandle handle) const { return softBody(handle).soft->pieces; }
 
 std::vector<std::vector<std::uint32_t>> World::borders(BodyHandle handle) const
 {
@@ -60,8 +62,10 @@ void World::refuseExplosion()
     for (Index n = 0; n < nodes.size(); ++n) {
         constexpr double kMost = 0.5 * soft::kMostSpeed;
         if (nodes.velocity[n].squaredNorm() <= kMost * kMost && std::abs(nodes.omega[n]) <= kMost) continue;
-        const Index handle = nodes.body[n];
-        const Range& own = state_.bodies[handle].nodes;
+        const auto has = [n](const BodyRecord& body) { return n >= body.nodes.first && n < body.nodes.end(); };
+        const auto body = std::find_if(state_.bodies.begin(), state_.bodies.end(), has);
+        const auto handle = body - state_.bodies.begin();
+        const Range& own = body->nodes;
         for (Index k = own.first; k < own.end(); ++k) nodes.velocity[k] = Vec2(0, 0), nodes.omega[k] = 0;
         throw Failure(Error("Physics: body " + std::to_string(handle) +
                             " explodes: its springs are too stiff for semi-implicit Euler at this time step. Use the "
@@ -72,7 +76,7 @@ void World::refuseExplosion()
 void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
 {
     validate(matter);
-    softBody(handle).matter = matter;
+    softBody(handle).soft->matter = matter;
 }
 
 void World::setSprings(BodyHandle handle, double ks, double kd, double tearRatio)
@@ -103,8 +107,9 @@ double World::springTension(BodyHandle handle, std::uint32_t index) const
 {
     requireBelow("body", handle, bodyCount());
     if (state_.bodies[handle].rigid) failNotSoft(handle);
-    requireBelow("spring", index, state_.bodies[handle].springs.count);
-    return springs_.tension(state_, handle, state_.bodies[handle].springs.first + index);
+    const Range& springs = state_.bodies[handle].soft->springs;
+    requireBelow("spring", index, springs.count);
+    return springs_.tension(state_, handle, springs.first + index);
 }
 
 }  // namespace jet::physics

@@ -104,7 +104,8 @@ void World::stepPart(double dt)
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
     if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
-    updateReadings(state_);
+    if (!lean_) updateReadings(state_);
+    told_ = 0;
     untold_ = true;
     cutTorn();
 }
@@ -133,10 +134,11 @@ void World::substep(double h, int index, int count)
     {
         const Stopwatch watch(stats_.springsMs);
         const bool pushed = pushed_ || plain_ || actuators_.any() || fields_.count() > 0;
-        if (pushed || springs_.anyOneByOne()) state_.nodes.force.cover(state_.nodes.size());
+        if (pushed || springs_.anyOneByOne()) state_.nodes.coverForces();
         for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);
-        if (fields_.count() > 0) fields_.addForces(state_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
+        if (fields_.count() > 0)
+            fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
         springs_.addForces(state_);
         if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
         integrateVelocities(state_, settings_, springs_, h, pushed);

@@ -23,6 +23,7 @@ Part makePart(const Vec2* corners, int count, double radius)
     part.count = static_cast<std::uint8_t>(count);
     part.radius = static_cast<float>(radius);
     const double area = signedArea(corners, count);
+    part.reversed = area < 0;
     double around = 0, reach = 0, thickness = 1e300;
     Vec2 centre(0, 0);
     for (int i = 0; i < count; ++i) {

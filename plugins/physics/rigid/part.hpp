@@ -39,6 +39,7 @@ struct Part {
     std::uint32_t body = 0;  // index of the rigid body
     std::uint32_t outline = kNoOutline;
     std::uint8_t count = 0;       // corners: 1 circle, 2 capsule, 3.. polygon
+    bool reversed = false;        // do they lie in the other direction than they were given in?
     float radius = 0;             // units
     float length = 0;             // typical size, units: tolerances are fractions of it
     float thickness = 0;          // units: the narrowest way through it

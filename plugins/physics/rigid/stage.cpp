@@ -265,14 +265,15 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     const auto start = std::chrono::steady_clock::now();
     const double linear = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
+    const Nodes& nodes = std::as_const(state).nodes;
     solver.eachBody([&](Index i, BodyState<Real>&, BodyPush<Real>& force) {
         const RigidBody& body = collider_.bodies()[i];
         force = BodyPush<Real>();
         if (!body.moves || body.asleep) return;
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
-        const Vec2 pull = scale * settings.gravity + state.nodes.invMass[body.node] * state.nodes.force[body.node];
+        const Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
-        force.accelerationW = static_cast<Real>(state.nodes.invInertia[body.node] * state.nodes.torque[body.node]);
+        force.accelerationW = static_cast<Real>(nodes.invInertia[body.node] * nodes.torque[body.node]);
         force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
     });
     addJoints(solver, state);

@@ -18,6 +18,11 @@ class RigidStage {
 public:
     /// Takes the body if its outline is simple; its node is where it shall be. Says whether it did.
     bool add(const State&, Index handle, const RigidBodyDef&);
+    /// Of a body that has no other.
+    const Part& onlyPart(Index handle) const
+    {
+        return collider_.parts()[collider_.bodies()[bodyOf_[handle]].firstPart];
+    }
     bool has(Index handle) const { return handle < bodyOf_.size() && bodyOf_[handle] != 0; }
     std::size_t count() const { return collider_.bodies().size() - 1; }
     bool empty() const { return count() == 0; }

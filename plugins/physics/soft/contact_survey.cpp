@@ -38,7 +38,7 @@ bool insidePiece(const State& state, const BodyRecord& body, Index piece, const 
 {
     bool in = false;
     for (Index w = body.walls.first; w < body.walls.end(); ++w) {
-        if (body.pieces[state.walls.first[w] - body.points.first] != piece) continue;
+        if (body.soft->pieces[state.walls.first[w] - body.points.first] != piece) continue;
         const Vec2 &p = state.points.position[state.walls.first[w]], &q = state.points.position[state.walls.second[w]];
         if ((p.y() > at.y()) != (q.y() > at.y()) &&
             at.x() < p.x() + (at.y() - p.y()) / (q.y() - p.y()) * (q.x() - p.x()))
@@ -148,8 +148,8 @@ void Contacts::meetItself(State& state, const Motion& motion, const Pair& pair, 
     corners(state, pair.a);
     near_.resize(std::max<std::size_t>(near_.size(), skin.count));
     const double behind = kTouchDepth * static_cast<double>(pair.slop);
-    const bool torn = body.pieceCount > 1;
-    const auto pieceOf = [&](Index p) { return torn ? body.pieces[p - body.points.first] : 0; };
+    const bool torn = body.soft->pieceCount > 1;
+    const auto pieceOf = [&](Index p) { return torn ? body.soft->pieces[p - body.points.first] : 0; };
     for (Index p = body.points.first; p < body.points.end(); ++p) {
         const Vec2& normal = state.points.normal[p];
         if (normal.isZero() && !torn) continue;  // not on the border
@@ -171,7 +171,8 @@ void Contacts::meetItself(State& state, const Motion& motion, const Pair& pair, 
                 const View seen = view(state, wall, at);
                 if (!seen.valid) continue;
                 const bool other = pieceOf(p) != pieceOf(state.walls.first[wall]);
-                if (!other && (!body.matter.selfCollision || normal.isZero() || normal.dot(seen.normal) > -kFacing))
+                if (!other &&
+                    (!body.soft->matter.selfCollision || normal.isZero() || normal.dot(seen.normal) > -kFacing))
                     continue;
                 const Touch* held = heldBefore(p, wall);
                 if (seen.height < -behind && other) deepIn = wall;
@@ -226,7 +227,7 @@ Index Contacts::wallToLeaveThrough(const State& state, const BodyRecord& body, I
     Index best = kNone;
     double score = std::numeric_limits<double>::infinity();
     for (Index wall = body.walls.first; wall < body.walls.end(); ++wall) {
-        if (piece != kNone && body.pieces[state.walls.first[wall] - body.points.first] != piece) continue;
+        if (piece != kNone && body.soft->pieces[state.walls.first[wall] - body.points.first] != piece) continue;
         const View seen = view(state, wall, at);
         if (!seen.valid || seen.height >= 0) continue;
         const Touch* held = heldBefore(point, wall);

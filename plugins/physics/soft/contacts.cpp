@@ -121,7 +121,7 @@ void Contacts::plan(const State& state, const WorldSettings& settings, const std
         const double lengthA = a.fixed ? b.length : a.length, lengthB = b.fixed ? a.length : b.length;
         const double length = std::min(lengthA, lengthB);
         pair.slop = static_cast<float>(kSlopPerLength * length);
-        pair.thickness = static_cast<float>(a.matter.thickness + b.matter.thickness);
+        pair.thickness = static_cast<float>(a.thickness() + b.thickness());
         pair.friction = static_cast<float>(material.friction),
         pair.restitution = static_cast<float>(material.restitution);
         pair.resolve = settings.resolveCollisions && !a.sensor && !b.sensor;

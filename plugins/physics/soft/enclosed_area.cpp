@@ -41,9 +41,9 @@ void push(State& state, const BodyRecord& body, double h, std::vector<Vec2>& gra
     if (!(give > 0)) return;
     for (Index k = 0; k < body.nodes.count; ++k) rate += gradient[k].dot(nodes.velocity[body.nodes.first + k]);
 
-    const double rest = body.restArea, now = enclosedArea(state, body), gas = std::max(now, kLeastArea * rest);
+    const double rest = body.soft->restArea, now = enclosedArea(state, body), gas = std::max(now, kLeastArea * rest);
     const double most = kMostPressure / (h * h * lightest);
-    const SoftMatter& matter = body.matter;
+    const SoftMatter& matter = body.soft->matter;
     const double pressure =
         std::clamp(matter.pressure * rest / gas + matter.areaStiffness * (1 - now / rest), -most, most);
     const double stiffness = matter.pressure * rest / (gas * gas) + matter.areaStiffness / rest;
@@ -67,8 +67,9 @@ double enclosedArea(const State& state, const BodyRecord& body)
 void applyPressure(State& state, double h)
 {
     for (const BodyRecord& body : state.bodies) {
-        if (body.rigid || body.fixed || !body.enabled || body.open || !(body.restArea > 0)) continue;
-        if (body.matter.pressure > 0 || body.matter.areaStiffness > 0) push(state, body, h, state.scratch.gradient);
+        if (body.rigid || body.fixed || !body.enabled || body.soft->open || !(body.soft->restArea > 0)) continue;
+        if (body.soft->matter.pressure > 0 || body.soft->matter.areaStiffness > 0)
+            push(state, body, h, state.scratch.gradient);
     }
 }
 

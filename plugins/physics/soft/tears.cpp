@@ -24,19 +24,19 @@ struct Tears::Mesh {
         for (Index p = 0; p < count; ++p) particleOf[state.points.node[body.points.first + p] - body.nodes.first] = p;
         first.assign(count + std::size_t{1}, 0);
         rest.resize(count);
-        for (Index k = 0; k < count; ++k) rest[particleOf[k]] = body.restArms[k];
+        for (Index k = 0; k < count; ++k) rest[particleOf[k]] = body.soft->restArms[k];
         const auto ends = [&](Index i) {
             return std::pair(particleOf[springs.endA(i) - body.nodes.first],
                              particleOf[springs.endB(i) - body.nodes.first]);
         };
-        for (Index i = body.springs.first; i < body.springs.end(); ++i) {
+        for (Index i = body.soft->springs.first; i < body.soft->springs.end(); ++i) {
             const auto [a, b] = ends(i);
             ++first[a + 1], ++first[b + 1];
         }
         std::partial_sum(first.begin(), first.end(), first.begin());
         links.resize(first.back());
         std::vector<Index> next(first.begin(), first.end() - 1);
-        for (Index i = body.springs.first; i < body.springs.end(); ++i) {
+        for (Index i = body.soft->springs.first; i < body.soft->springs.end(); ++i) {
             const auto [a, b] = ends(i);
             links[next[a]++] = {b, springs.alive(i)};
             links[next[b]++] = {a, springs.alive(i)};
@@ -191,8 +191,8 @@ void Tears::undo(State& state)
         back(walls.first, drawn_.first), back(walls.second, drawn_.second);
         back(walls.previous, drawn_.previous), back(walls.next, drawn_.next), back(walls.outward, drawn_.outward);
         back(walls.firstEnd, drawn_.firstEnd), back(walls.secondEnd, drawn_.secondEnd);
-        body.open = false, body.pieceCount = 1;
-        body.pieces.clear();
+        body.soft->open = false, body.soft->pieceCount = 1;
+        body.soft->pieces.clear();
     }
     // What is cut again shall get the same numbers again.
     if (state.bodies.size() == drawnRanges_.size()) state.walls = drawn_;
@@ -231,7 +231,7 @@ void Tears::look(State& state, const SoftSprings& springs)
         }
         const auto before = both[0].size() + both[1].size();
         std::vector<Ring> kept[2] = {openAll(mesh, both[0], 1), openAll(mesh, both[1], -1)};
-        body.open |= kept[0] != both[0] || kept[1] != both[1] || before != kept[0].size() + kept[1].size();
+        body.soft->open |= kept[0] != both[0] || kept[1] != both[1] || before != kept[0].size() + kept[1].size();
         cut.room = std::max(cut.room, body.walls.count);
         std::vector<Ring> all = kept[0];
         all.insert(all.end(), kept[1].begin(), kept[1].end());
@@ -278,23 +278,23 @@ void Tears::split(State& state, const Mesh& mesh, Index handle)
 {
     BodyRecord& body = state.bodies[handle];
     const Index count = body.points.count;
-    body.pieces.assign(count, kNone);
-    body.pieceCount = 0;
+    body.soft->pieces.assign(count, kNone);
+    body.soft->pieceCount = 0;
     std::vector<Index> waiting;
     for (Index p = 0; p < count; ++p) {
-        if (body.pieces[p] != kNone) continue;
-        body.pieces[p] = body.pieceCount;
+        if (body.soft->pieces[p] != kNone) continue;
+        body.soft->pieces[p] = body.soft->pieceCount;
         waiting.assign(1, p);
         while (!waiting.empty()) {
             const Index at = waiting.back();
             waiting.pop_back();
             for (const Mesh::Link& link : mesh.at(at)) {
-                if (!link.whole || body.pieces[link.to] != kNone) continue;
-                body.pieces[link.to] = body.pieceCount;
+                if (!link.whole || body.soft->pieces[link.to] != kNone) continue;
+                body.soft->pieces[link.to] = body.soft->pieceCount;
                 waiting.push_back(link.to);
             }
         }
-        ++body.pieceCount;
+        ++body.soft->pieceCount;
     }
 }
 

@@ -46,8 +46,9 @@ public:
         keep(walls.firstEnd), keep(walls.secondEnd);
         keep(cuts_);
         for (BodyRecord& body : state.bodies) {
-            with(body.walls), with(body.open), with(body.pieceCount);
-            keep(body.pieces);
+            if (!body.soft) continue;
+            with(body.walls), with(body.soft->open), with(body.soft->pieceCount);
+            keep(body.soft->pieces);
         }
     }
 

@@ -246,8 +246,9 @@ TEST(Queries, NearestPointsAndOverlapsAreThoseOfAllBodies)
             const auto near = scene.world->nearest(at, reach);
             ASSERT_EQ(static_cast<bool>(near), least <= reach) << seed << " " << trial;
             if (near) {
-                EXPECT_NEAR(near->fraction * reach, least, 1e-6);
-                EXPECT_NEAR((near->point - at).norm(), least, 1e-6);
+                // Bodies of one shape are as exact as parts are: to 10^-7 of their size, which is up to 40 here.
+                EXPECT_NEAR(near->fraction * reach, least, 4e-6);
+                EXPECT_NEAR((near->point - at).norm(), least, 4e-6);
             }
             if (trial % 3 != 0) continue;
             const Box box(at, at + scene.place(60));

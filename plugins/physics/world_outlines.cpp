@@ -1,0 +1,158 @@
+// Outlines of rigid bodies. As long as nothing in a world goes by points and walls, a body of one shape has none: its
+// part says all, and its outline is worked out when somebody asks. The first body that goes by points and walls makes
+// all others have them.
+#include "border.hpp"
+#include "outline.hpp"
+#include "room.hpp"
+#include "world.hpp"
+
+#include <limits>
+#include <numeric>
+
+namespace jet::physics {
+
+/// Appends points and walls to the body, which is the last of those that have any.
+void World::keepOutline(BodyRecord& body, const std::vector<std::vector<Vec2>>& outlines)
+{
+    body.points.first = static_cast<Index>(state_.points.size());
+    Points& points = state_.points;
+    std::vector<std::vector<Index>> rings;
+    for (const auto& outline : outlines) {
+        makeRoom(outline.size(), points.node, points.position, points.collidable);
+        auto& ring = rings.emplace_back(outline.size());
+        std::iota(ring.begin(), ring.end(), static_cast<Index>(points.size()));
+        for (const Vec2& at : outline) addPoint(body, body.nodes.first, at, at);
+    }
+    body.points.count = static_cast<Index>(points.size()) - body.points.first;
+    addBorders(state_, body, rings);
+}
+
+/// Points and walls in the order of bodies, for all of them.
+void World::outlineAll()
+{
+    if (!lean_) return;
+    lean_ = false;
+    const Points points = std::move(state_.points);
+    const Walls walls = std::move(state_.walls);
+    state_.points = {}, state_.walls = {};
+    for (BodyRecord& body : state_.bodies) {
+        if (body.isLean()) {
+            const PartRing ring = ringOf(rigid_.onlyPart(static_cast<Index>(&body - state_.bodies.data())));
+            keepOutline(body, {{ring.points.begin(), ring.points.begin() + ring.count}});
+            body.grid.reset();
+        } else {
+            copyOutline(body, points, walls);
+        }
+    }
+    state_.readings = {};
+    stale_ = true;
+}
+
+void World::copyOutline(BodyRecord& body, const Points& points, const Walls& walls)
+{
+    const Range oldPoints = body.points, oldWalls = body.walls;
+    body.points.first = static_cast<Index>(state_.points.size());
+    body.walls.first = static_cast<Index>(state_.walls.size());
+    for (Index p = oldPoints.first; p < oldPoints.end(); ++p) {
+        addPoint(body, points.node[p], points.local[p], points.position[p]);
+        state_.points.collidable.back() = points.collidable[p];
+    }
+    Walls& to = state_.walls;
+    for (Index w = oldWalls.first; w < oldWalls.end(); ++w) {
+        const auto point = [&](Index old) { return old - oldPoints.first + body.points.first; };
+        const auto wall = [&](Index old) { return old - oldWalls.first + body.walls.first; };
+        to.first.push_back(point(walls.first[w])), to.second.push_back(point(walls.second[w]));
+        to.previous.push_back(wall(walls.previous[w])), to.next.push_back(wall(walls.next[w]));
+        to.outward.push_back(walls.outward[w]);
+        to.firstEnd.push_back(walls.firstEnd[w]), to.secondEnd.push_back(walls.secondEnd[w]);
+    }
+}
+
+/// Where nothing goes by points and walls: bounds and points of all bodies, for who looks at them.
+void World::tellOutlines()
+{
+    BodyReadings& readings = state_.readings;
+    const std::size_t count = state_.bodies.size();
+    makeRoom(count - readings.bounds.size(), readings.bounds, readings.firstPoint);
+    for (auto handle = static_cast<Index>(readings.bounds.size()); handle < count; ++handle) {
+        const BodyRecord& body = state_.bodies[handle];
+        const Index points = body.isLean() ? ringSizeOf(rigid_.onlyPart(handle)) : body.points.count;
+        readings.bounds.emplace_back();
+        readings.firstPoint.push_back(readings.firstPoint.back() + points);
+    }
+    makeRoom(readings.firstPoint.back() - readings.points.size(), readings.points);
+    readings.points.resize(readings.firstPoint.back());
+    for (; told_ < count; ++told_) tellOutline(told_);
+}
+
+void World::tellOutline(Index handle)
+{
+    const Index first = state_.readings.firstPoint[handle];
+    Box bounds;
+    eachPoint(handle, [&](Index i, const Vec2& at) {
+        state_.readings.points[first + i] = at;
+        bounds.extend(at);
+    });
+    if (bounds.isNull()) bounds.extend(state_.nodes.position[state_.bodies[handle].nodes.first]);
+    state_.readings.bounds[handle] = bounds;
+}
+
+/// Calls visit(index, at) for the points of the body's outline, where they are now.
+template <class Visit>
+void World::eachPoint(Index handle, Visit&& visit) const
+{
+    const BodyRecord& body = state_.bodies[handle];
+    if (!body.isLean()) {
+        for (Index i = 0; i < body.points.count; ++i) visit(i, state_.pointNow(body.points.first + i));
+        return;
+    }
+    const PartRing ring = ringOf(rigid_.onlyPart(handle));
+    const Vec2 &centre = state_.nodes.position[body.nodes.first], &turn = state_.nodes.rotation[body.nodes.first];
+    for (Index i = 0; i < ring.count; ++i) visit(i, Vec2(centre + rotated(turn, ring.points[i])));
+}
+
+/// Calls visit(index of its first point, from, to, outward) for the walls of the body.
+template <class Visit>
+void World::eachWall(Index handle, Visit&& visit) const
+{
+    const BodyRecord& body = state_.bodies[handle];
+    if (!body.isLean()) {
+        const auto at = [&](Index point) { return state_.pointNow(point); };
+        for (Index w = body.walls.first; w < body.walls.end(); ++w)
+            visit(state_.walls.first[w] - body.points.first, at(state_.walls.first[w]), at(state_.walls.second[w]),
+                  state_.walls.outward[w]);
+        return;
+    }
+    const PartRing ring = ringOf(rigid_.onlyPart(handle));
+    const Vec2 &centre = state_.nodes.position[body.nodes.first], &turn = state_.nodes.rotation[body.nodes.first];
+    const auto at = [&](Index i) { return Vec2(centre + rotated(turn, ring.points[i])); };
+    for (Index i = 0; i < ring.count; ++i) visit(i, at(i), at((i + 1) % ring.count), ring.outward);
+}
+
+void World::nameFeatures(Contact& contact) const
+{
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec2 corner(0, 0);
+    eachPoint(contact.bodyA, [&](Index i, const Vec2& at) {
+        const double away = (at - contact.point).squaredNorm();
+        if (away < nearest) nearest = away, contact.particle = i, corner = at;
+    });
+    // Where a corner touches, the corner is the point; its place is known more exactly.
+    const double length = state_.bodies[contact.bodyA].length;
+    if (nearest < 1e-4 * length * length) contact.point = corner;
+    nearest = std::numeric_limits<double>::infinity();
+    eachWall(contact.bodyB, [&](Index first, const Vec2& from, const Vec2& to, int outward) {
+        const Vec2 edge = to - from, off = contact.point - from;
+        const double squared = edge.squaredNorm();
+        if (!(squared > 0)) return;
+        const double along = std::clamp(off.dot(edge) / squared, 0.0, 1.0), away = (off - along * edge).squaredNorm();
+        if (away >= nearest) return;
+        nearest = away;
+        contact.wall = first;
+        contact.edgeParameter = along;
+        const Vec2 normal = perpendicular(edge) * (outward / std::sqrt(squared));
+        contact.penetration = normal.dot(contact.normal) > 0.999 ? -off.dot(normal) : contact.penetration;
+    });
+}
+
+}  // namespace jet::physics
