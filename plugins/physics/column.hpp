@@ -20,6 +20,7 @@ public:
         makeRoom(count - values_.size(), values_);
         values_.resize(count, usual_);
     }
+    void fit() { values_.shrink_to_fit(); }
     /// Rows that have room.
     std::size_t size() const { return values_.size(); }
     std::vector<T>& values() { return values_; }

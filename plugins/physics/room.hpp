@@ -1,4 +1,5 @@
-// Room for what is added in large numbers. Growing by doubling leaves up to half of a large body's memory unused.
+// Room for what is added in large numbers. Growing by doubling leaves up to half of a large body's memory unused. At
+// its first step a world gives back what it has to spare; most have all their bodies then.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +16,13 @@ void makeRoom(std::size_t more, Vectors&... vectors)
         if (needed > values.capacity()) values.reserve(std::max(needed, values.size() + values.size() / 8));
     };
     (grow(vectors), ...);
+}
+
+/// Gives back what the vectors have to spare.
+template <class... Vectors>
+void fitRoom(Vectors&... vectors)
+{
+    (vectors.shrink_to_fit(), ...);
 }
 
 }  // namespace jet::physics

@@ -1,5 +1,6 @@
 #include "state.hpp"
 
+#include "room.hpp"
 #include "soft/mass_sums.hpp"
 
 namespace jet::physics {
@@ -17,6 +18,18 @@ void Nodes::addRigid(double nodeMass)
     addParticle(Vec2(0, 0), nodeMass, 0);
     for (Column<double>* column : {&angle, &omega, &invInertia}) column->cover(size());
     rotation.cover(size());
+}
+
+void fitRoom(State& state)
+{
+    Nodes& nodes = state.nodes;
+    fitRoom(nodes.position, nodes.velocity, nodes.mass, nodes.invMass, state.bodies);
+    nodes.angle.fit(), nodes.omega.fit(), nodes.rotation.fit(), nodes.invInertia.fit();
+    Points& points = state.points;
+    fitRoom(points.node, points.position, points.normal, points.collidable);
+    points.local.fit();
+    Walls& walls = state.walls;
+    fitRoom(walls.first, walls.second, walls.previous, walls.next, walls.outward, walls.firstEnd, walls.secondEnd);
 }
 
 void updatePoints(State& state)

@@ -172,6 +172,7 @@ private:
     Queries queries_;
     bool lean_ = true;                     // nothing has needed the points and walls of bodies of one shape
     Index told_ = 0;                       // then: first bodies of which outlines are told as they are now
+    bool settled_ = false;                 // has it been stepped?
     bool stale_ = false;                   // points and readings are older than the nodes
     bool untold_ = false;                  // so are the reports
     Index complex_ = 0;                    // bodies that go by points and walls

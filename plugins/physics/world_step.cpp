@@ -6,6 +6,7 @@
 #include "world.hpp"
 
 #include <chrono>
+#include <utility>
 
 namespace jet::physics {
 
@@ -35,6 +36,7 @@ void World::step(double dt)
 {
     requireFinite("the time step", {dt});
     if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
+    if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom();
     rememberTouches();
     if (skipStep()) return;
     stats_ = StepStats();

@@ -50,8 +50,7 @@ void Collider::addPart(Part part, const PartOutline* outline)
 
 void Collider::disturb(Index body)
 {
-    if (body < room_.size()) room_[body] = -1;
-    if (body < resting_.size()) resting_[body].x = 1e300;
+    if (body < poses_.size()) poses_[body].room = -1, poses_[body].rest.x = Pose::kUnknown;
     disturbed_ = true;
 }
 
@@ -63,7 +62,7 @@ void Collider::seekAgain(Index body)
 
 void Collider::disturbAll()
 {
-    for (Index i = 1; i < resting_.size(); ++i) disturb(i);
+    for (Index i = 1; i < poses_.size(); ++i) disturb(i);
     for (Index i = 0; i < contacts_.size(); ++i) markDue(i);
 }
 
@@ -145,15 +144,20 @@ void Collider::prepareSweep()
 
 void Collider::prepareBodies()
 {
-    const std::size_t known = resting_.size();
-    poses_.resize(bodies_.size()), resting_.resize(bodies_.size()), drift_.resize(bodies_.size(), 0.0F),
-        way_.resize(bodies_.size(), 0.0);
-    reached_.resize(bodies_.size(), 0.0);
-    fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1);
-    for (std::size_t i = std::max<std::size_t>(known, 1); i < bodies_.size(); ++i) resting_[i].x = 1e300;
-    if (surprised_ || surprise_.size() != bodies_.size()) surprise_.assign(bodies_.size(), 0.0F);
+    const std::size_t count = bodies_.size();
+    if (drift_.size() < count) makeRoom(count - drift_.size(), drift_, reached_, surprise_);
+    if (poses_.size() < count) makeRoom(count - poses_.size(), poses_, fitted_, way_);
+    poses_.resize(count), fitted_.resize(count), way_.resize(count, 0.0);
+    drift_.resize(count, 0.0F), reached_.resize(count, 0.0);
+    if (surprised_ || surprise_.size() != count) surprise_.assign(count, 0.0F);
     if (sweep_.parts() != parts_.size()) prepareSweep();
     surprised_ = fast_ = false;
+}
+
+/// How far the body is from where its boxes were fitted.
+Vec2f Collider::fromFitting(Index i) const
+{
+    return {static_cast<float>(poses_[i].x - fitted_[i].x), static_cast<float>(poses_[i].y - fitted_[i].y)};
 }
 
 /// True: it moves by much of its size in this step.
@@ -180,33 +184,36 @@ bool Collider::takePose(Index i, const State& state, float fall, double dt)
 /// How far the body may come from where it was when its contacts were last looked at; if that is much, it is now here.
 void Collider::noteDrift(Index i)
 {
-    const Pose& pose = poses_[i];
-    Pose& rest = resting_[i];
-    const float dx = static_cast<float>(pose.x - rest.x), dy = static_cast<float>(pose.y - rest.y);
-    const float turn = std::abs(cross(rest.turn, pose.turn)) + (dot(rest.turn, pose.turn) < 0 ? 2.0F : 0.0F);
+    Pose& pose = poses_[i];
+    const Vec2f moved = fromFitting(i) - pose.rest;
+    const float dx = moved.x, dy = moved.y;
+    const float turn = std::abs(cross(pose.restTurn, pose.turn)) + (dot(pose.restTurn, pose.turn) < 0 ? 2.0F : 0.0F);
     const float drift = drift_[i] + std::sqrt(dx * dx + dy * dy) + turn * bodies_[i].reach;
     drift_[i] = drift;
     if (drift <= kQuiet * kSlop * bodies_[i].finest) return;
     drift_[i] = kMoved;
-    rest = pose;
+    pose.rest = fromFitting(i), pose.restTurn = pose.turn;
 }
 
 /// Boxes are fitted anew when a part, with what it moves in this step, may leave them. False: it keeps within.
 bool Collider::fitBoxes(Index i, double dt)
 {
-    const Pose &pose = poses_[i], &old = fitted_[i];
-    if (room_[i] >= 0) {
-        const float dx = static_cast<float>(pose.x - old.x), dy = static_cast<float>(pose.y - old.y);
+    Pose& pose = poses_[i];
+    const Fitting& old = fitted_[i];
+    const Vec2f moved = fromFitting(i);
+    if (pose.room >= 0) {
+        const float dx = moved.x, dy = moved.y;
         const float turn = std::abs(cross(old.turn, pose.turn)) + (dot(old.turn, pose.turn) < 0 ? 2.0F : 0.0F);
-        const float left = room_[i] - 1.2F * turn * bodies_[i].reach - pose.travel;
+        const float left = pose.room - 1.2F * turn * bodies_[i].reach - pose.travel;
         if (left >= 0 && dx * dx + dy * dy <= left * left) return false;
         const float farther = left + ahead(i);
         if (farther >= 0 && dx * dx + dy * dy <= farther * farther && keepsWithin(i, dt)) return false;
     }
-    fitted_[i] = pose;
+    pose.rest = pose.rest - moved;
+    fitted_[i] = {pose.x, pose.y, pose.turn, pose.travel};
     // A long body that turns would have to be fitted in each step.
-    room_[i] = kRoom * typical_ + std::min(3 * pose.travel, kRoomOfLength * bodies_[i].length);
-    for (Index p = 0; p < bodies_[i].partCount; ++p) fitBox(bodies_[i].firstPart + p, pose, room_[i], dt);
+    pose.room = kRoom * typical_ + std::min(3 * pose.travel, kRoomOfLength * bodies_[i].length);
+    for (Index p = 0; p < bodies_[i].partCount; ++p) fitBox(bodies_[i].firstPart + p, pose, pose.room, dt);
     return true;
 }
 
@@ -402,8 +409,7 @@ bool Collider::apart(Index partA, Index partB) const
     const double middleX = 0.5 * (static_cast<double>(box.minX) + box.maxX),
                  middleY = 0.5 * (static_cast<double>(box.minY) + box.maxY);
     const Vec2f middle{static_cast<float>(middleX - pose.x), static_cast<float>(middleY - pose.y)};
-    const float room =
-        part.radius + std::max(room_[part.body], 0.0F) + ahead(part.body) + pose.travel + surprise_[part.body];
+    const float room = part.radius + std::max(pose.room, 0.0F) + ahead(part.body) + pose.travel + surprise_[part.body];
     for (int i = 0; i < part.count; ++i) {
         const Vec2f n = turned(pose.turn, part.normals[i]);
         const float away =
@@ -418,7 +424,7 @@ void Collider::forgetPairs()
     contacts_.clear(), places_.clear(), free_.clear(), nearing_.clear();
     known_.clear();
     sweep_.forget();
-    std::fill(room_.begin(), room_.end(), -1.0F);
+    for (Pose& pose : poses_) pose.room = -1;
 }
 
 void Collider::rebuild()
@@ -431,14 +437,16 @@ void Collider::rebuild()
         if (places_[i] != kFree) known_.insert(contacts_[i].key());
 }
 
+void Collider::fitRoom() { physics::fitRoom(bodies_, parts_); }
+
 std::size_t Collider::bytes() const
 {
     return bodies_.capacity() * sizeof(RigidBody) + parts_.capacity() * sizeof(Part) +
-           (poses_.capacity() + fitted_.capacity() + resting_.capacity()) * sizeof(Pose) +
-           contacts_.capacity() * (sizeof(RigidContact) + sizeof(Nearing)) + way_.capacity() * sizeof(double) +
-           (places_.capacity() + free_.capacity()) * 4 +
-           (drift_.capacity() + room_.capacity() + surprise_.capacity()) * sizeof(float) + sweep_.bytes() +
-           known_.bytes() + excluded_.bytes() + weld_.bytes();
+           poses_.capacity() * sizeof(Pose) + fitted_.capacity() * sizeof(Fitting) +
+           contacts_.capacity() * (sizeof(RigidContact) + sizeof(Nearing)) +
+           (way_.capacity() + reached_.capacity()) * sizeof(double) + (places_.capacity() + free_.capacity()) * 4 +
+           (drift_.capacity() + surprise_.capacity()) * sizeof(float) + sweep_.bytes() + known_.bytes() +
+           excluded_.bytes() + weld_.bytes();
 }
 
 }  // namespace jet::physics

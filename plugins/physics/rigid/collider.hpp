@@ -38,7 +38,7 @@ public:
     /// Nothing that has been looked at in this step is looked at again because it moves.
     void settleDrifts();
     /// Is there a reason to look at contacts though nothing moves?
-    bool restless() const { return disturbed_ || rearranged_ || !welded_ || poses_.size() != bodies_.size(); }
+    bool restless() const { return disturbed_ || rearranged_ || !welded_ || drift_.size() != bodies_.size(); }
 
     /// Where bodies are and which pairs may meet in the coming dt seconds.
     void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&, const Domains&);
@@ -103,6 +103,8 @@ public:
     void forgetPairs();
     void disturbAll();
     std::size_t bytes() const;
+    /// Gives back the room there is to spare.
+    void fitRoom();
 
     template <class Archive>
     void archive(Archive& with)
@@ -114,10 +116,10 @@ public:
         with.list(nearing_, [&](Nearing& n) { with(n); });
         way_.resize(bodies_.size(), 0.0);
         with(way_);
-        fitted_.resize(bodies_.size()), room_.resize(bodies_.size(), -1), resting_.resize(bodies_.size());
-        for (std::vector<Pose>* poses : {&fitted_, &resting_})
-            for (Pose& pose : *poses) with(pose.x), with(pose.y), with(pose.turn), with(pose.travel);
-        with(room_), with(disturbed_), with(rearranged_);
+        poses_.resize(bodies_.size()), fitted_.resize(bodies_.size());
+        with(fitted_);
+        for (Pose& pose : poses_) with(pose.room), with(pose.rest), with(pose.restTurn);
+        with(disturbed_), with(rearranged_);
         sweep_.archive(with);
     }
     /// After restoring: what follows from what was restored.
@@ -132,6 +134,7 @@ private:
     void prepareBodies();
     bool takePose(Index body, const State&, float fall, double dt);
     void noteDrift(Index body);
+    Vec2f fromFitting(Index body) const;
     bool fitBoxes(Index body, double dt);
     float ahead(Index body) const;
     bool keepsWithin(Index body, double dt) const;
@@ -176,10 +179,8 @@ private:
     bool rearranged_ = true;  // has something that stands come, gone or been moved?
     bool welded_ = false;     // are the outlines those of where bodies stand?
     std::vector<Pose> poses_;
-    std::vector<Pose> fitted_;     // as of the body's last fitting
-    std::vector<Pose> resting_;    // where it was when it last moved
-    std::vector<float> drift_;     // [bodies] units it may come from there in this step; huge: it moves
-    std::vector<float> room_;      // [bodies] units a part may move in its box
+    std::vector<Fitting> fitted_;
+    std::vector<float> drift_;     // [bodies] units it may come from where it rests in this step; huge: it moves
     std::vector<float> surprise_;  // [bodies] units a hit may carry it in this step
     PairSweep sweep_;
     KeySet known_, excluded_;

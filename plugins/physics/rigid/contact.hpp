@@ -40,6 +40,19 @@ struct alignas(64) Pose {
     float velocityX = 0, velocityY = 0, omega = 0;  // units / s, rad / s
     float travel = 0;                               // units its farthest point may move in this step
     float reach = 0;                                // of its body, units
+    float room = -1;          // units a part may move in its box; below 0: it is to be fitted anew
+    Vec2f rest{kUnknown, 0};  // where it was when it last moved, from where its boxes were fitted
+    Vec2f restTurn{1, 0};     // and how it was turned then
+
+    static constexpr float kUnknown = 1e30F;  // it is looked at in any case
+};
+static_assert(sizeof(Pose) == 64);
+
+/// Where a body was when its boxes were fitted.
+struct Fitting {
+    double x = 0, y = 0;  // scene units
+    Vec2f turn{1, 0};
+    float travel = 0, unused = 0;
 };
 
 /// A part's box with room to move in; while the part keeps within, no new pairs are sought for it.

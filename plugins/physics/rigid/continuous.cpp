@@ -111,10 +111,10 @@ bool Collider::surprise(Index index, float gain, double dt)
     drift_[index] = 1e30F;
     noteReached(index);
     for (Index p = 0; p < body.partCount; ++p)
-        fitBox(body.firstPart + p, poses_[index], std::max(room_[index], 0.0F) + gain, dt);
+        fitBox(body.firstPart + p, poses_[index], std::max(poses_[index].room, 0.0F) + gain, dt);
     sweep_.noteMoves();
-    room_[index] = -1;  // fitted closely again in the next step
-    resting_[index].x = 1e300;
+    poses_[index].room = -1;  // fitted closely again in the next step
+    poses_[index].rest.x = Pose::kUnknown;
     return true;
 }
 
@@ -124,7 +124,7 @@ float Collider::withinBox(Index body, const Vec2& move, double dt) const
 {
     const Pose& pose = poses_[body];
     // A surprise was looked ahead of in the whole circle.
-    const double room = static_cast<double>(std::max(0.1F * typical_, room_[body]) + surprise_[body]);
+    const double room = static_cast<double>(std::max(0.1F * typical_, pose.room) + surprise_[body]);
     const Vec2 expected(dt * static_cast<double>(pose.velocityX), dt * static_cast<double>(pose.velocityY));
     double part = 1;
     for (int axis = 0; axis < 2; ++axis) {

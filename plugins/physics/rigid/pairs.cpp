@@ -91,7 +91,7 @@ void PairSweep::resize(std::size_t parts, float typical)
     boxes_.resize(parts), before_.resize(parts, kNowhere);
     if (moved_.size() < parts) anyMoved_ = true;
     moved_.resize(parts, 1), pieceOf_.resize(parts, 0);
-    classes_.resize(parts, kNoClass), cells_.resize(parts), buckets_.resize(parts), sorted_.resize(parts);
+    classes_.resize(parts, kNoClass), buckets_.resize(parts), sorted_.resize(parts);
     shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
     reaches_.resize(parts, 0), sortedReaches_.resize(parts + 4);
     now_.resize(parts), then_.resize(parts);
@@ -144,7 +144,7 @@ void PairSweep::layOut()
         grid.column = lineOf(grid.minX, grid.perColumn), grid.lastColumn = lineOf(grid.maxX, grid.perColumn);
         const std::uint64_t cells = (grid.lastRow - grid.row + 1) * (grid.lastColumn - grid.column + 1);
         grid.table = cells <= kCellsPerPart * grid.members + 64;
-        if (!grid.table) grid.perColumn = grid.perRow;
+        if (!grid.table) grid.perColumn = grid.perRow, cells_.resize(boxes_.size());
         grid.first = hashed_;
         if (grid.table) hashed_ += static_cast<std::size_t>(cells);
     }
@@ -162,10 +162,13 @@ void PairSweep::sort()
         if (which < kLast) {
             const Grid& grid = grids_[which];
             const std::uint64_t row = lineOf(box.minY, grid.perRow), column = lineOf(box.minX, grid.perColumn);
-            cells_[part] = cellOf(which, row, column);
-            bucket = grid.table ? grid.first + static_cast<std::size_t>(row - grid.row) * grid.width() +
-                                      static_cast<std::size_t>(column - grid.column)
-                                : hashed_ + hashOf(cells_[part]);
+            if (grid.table) {
+                bucket = grid.first + static_cast<std::size_t>(row - grid.row) * grid.width() +
+                         static_cast<std::size_t>(column - grid.column);
+            } else {
+                cells_[part] = cellOf(which, row, column);
+                bucket = hashed_ + hashOf(cells_[part]);
+            }
         }
         buckets_[part] = static_cast<Index>(bucket);
         ++begin_[bucket];
@@ -190,9 +193,8 @@ void PairSweep::finish()
 
 std::size_t PairSweep::bytes() const
 {
-    return boxes_.capacity() *
-               (2 * sizeof(FatBox) + sizeof(std::uint64_t) + 3 * sizeof(Index) + 10 * sizeof(float) + 2) +
-           begin_.capacity() * sizeof(Index);
+    return boxes_.capacity() * (2 * sizeof(FatBox) + 3 * sizeof(Index) + 10 * sizeof(float) + 2) +
+           begin_.capacity() * sizeof(Index) + cells_.capacity() * sizeof(std::uint64_t);
 }
 
 }  // namespace jet::physics

@@ -280,7 +280,7 @@ private:
     bool anyMoved_ = false;
     float typical_ = 1;
     std::vector<std::uint8_t> classes_;  // [parts]
-    std::vector<std::uint64_t> cells_;   // [parts]
+    std::vector<std::uint64_t> cells_;   // [parts] of those that are hashed; nothing as long as none is
     std::vector<Index> buckets_;         // [parts]
     std::vector<Index> begin_;           // [buckets + 1]
     std::size_t hashed_ = 0;             // first bucket of hashed cells

@@ -5,6 +5,7 @@
 // and in balance as well: its velocity must not be about to change, as it does under any force that is not borne. What
 // touches others may be faster, and may tremble, as bodies in large piles do: it rests as well when it has not come
 // away for two seconds.
+#include "room.hpp"
 #include "stage.hpp"
 
 #include <cmath>
@@ -20,6 +21,7 @@ constexpr double kUnborne = 2e-4;      // of gravity: acceleration that counts a
 constexpr double kUnborneSize = 2e-4;  // lengths / s²: the same without gravity
 constexpr double kPlace = 0.02;        // lengths: within this far a body that touches others is where it was
 constexpr float kPlaceTime = 2;        // seconds
+constexpr double kGap = 1.2e-7;        // of single precision
 
 }  // namespace
 
@@ -58,17 +60,25 @@ RigidStage::Stillness RigidStage::stillness(Index index, const State& state, dou
     Watch& watch = watches_[index];
     const auto norm = [](double a, double b, double c) { return std::sqrt(a * a + b * b + c * c); };
     const auto perSecond = [&](double way) { return static_cast<float>(std::clamp(way / interval, -1e30, 1e30)); };
-    const float x = perSecond(at.x() - watch.x), y = perSecond(at.y() - watch.y);
-    const float swing = perSecond(turned - watch.turned);
+    const auto from = [](double now, float place) { return now - static_cast<double>(place); };
+    const double offX = from(at.x(), watch.placeX), offY = from(at.y(), watch.placeY);
+    const double offTurned = from(turned, watch.placeTurned);
+    const float x = perSecond(from(offX, watch.x)), y = perSecond(from(offY, watch.y));
+    const float swing = perSecond(from(offTurned, watch.turned));
     const double before = norm(watch.velocityX, watch.velocityY, watch.swing), now = norm(x, y, swing);
     const double bend = norm(x - watch.velocityX, y - watch.velocityY, swing - watch.swing) / interval;
-    watch.x = at.x(), watch.y = at.y(), watch.turned = turned;
     watch.velocityX = x, watch.velocityY = y, watch.swing = swing;
-    watch.looks = std::min<std::uint64_t>(watch.looks + 1, 3);
+    watch.looks = std::min<std::uint32_t>(watch.looks + 1, 3);
     watch.stayed += static_cast<float>(interval);
-    if (watch.looks == 1 ||
-        norm(at.x() - watch.placeX, at.y() - watch.placeY, turned - watch.placeTurned) > kPlace * length)
-        watch.placeX = at.x(), watch.placeY = at.y(), watch.placeTurned = turned, watch.stayed = 0;
+    // Far from the origin single precision has gaps.
+    const double gap = kGap * (std::abs(at.x()) + std::abs(at.y()) + std::abs(turned));
+    if (watch.looks == 1 || norm(offX, offY, offTurned) > kPlace * length + gap) {
+        const auto single = [](double value) { return static_cast<float>(std::clamp(value, -3e38, 3e38)); };
+        watch.placeX = single(at.x()), watch.placeY = single(at.y()), watch.placeTurned = single(turned);
+        watch.stayed = 0;
+    }
+    watch.x = static_cast<float>(from(at.x(), watch.placeX)), watch.y = static_cast<float>(from(at.y(), watch.placeY));
+    watch.turned = static_cast<float>(from(turned, watch.placeTurned));
     if (!body.mayRest || watch.looks < 3) return Stillness::Moves;
     const bool balanced = bend < (gravity > 0 ? kUnborne * gravity : kUnborneSize * length);
     const double speed = std::max(before, now) / length;
@@ -82,6 +92,7 @@ void RigidStage::rest(State& state, const WorldSettings& settings, const Bonds& 
     const double interval = sinceLook_, gravity = settings.applyGravity ? settings.gravity.norm() : 0;
     sinceLook_ = 0;
     const std::size_t count = collider_.bodies().size();
+    if (watches_.size() < count) makeRoom(count - watches_.size(), watches_, group_);
     watches_.resize(count), group_.resize(count, kNone), still_.assign(count, Stillness::Moves);
     bool any = false;
     for (Index i = 1; i < count; ++i) {

@@ -36,7 +36,8 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool)
     constants_.restSpeed = static_cast<Real>(shape.restSpeed);
     kernels_ = &kernels<Real>(shape.choice);
     domains_.resize(bodies);
-    taken_.resize(bodies * Domains::kLevels, 0), takenByJoints_.assign(bodies * Domains::kLevels, 0);
+    taken_.resize(bodies * Domains::kLevels, 0);
+    std::fill(takenByJoints_.begin(), takenByJoints_.end(), 0U);
     if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
     for (JointColour& colour : jointColours_) colour.joints.clear(), colour.index.clear(), colour.count = 0;
     for (auto& rows : rows_) rows.clear();
@@ -59,6 +60,7 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     addRows(joint, index, f, states_.data(), slotA, slotB, shape_.h, rows_[node]);
     if (joint.rowsTurn()) turning_[node].emplace_back(joint, index, f, slotA, slotB, first, rows_[node].size() - first);
     if (!joint.hasPoint()) return;
+    takenByJoints_.resize(taken_.size(), 0);
     const std::size_t which = colourOf(joint.a, movesA, joint.b, movesB, takenByJoints_);
     JointColour& colour = jointColours_[which];
     constexpr std::size_t lanes = kLanes<Real>;

@@ -1,6 +1,7 @@
 #include "stage.hpp"
 
 #include "drawn.hpp"
+#include "room.hpp"
 #include "speed_limit.hpp"
 #include "validation.hpp"
 
@@ -72,7 +73,7 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
     body.setOneSided(def.common.oneSided);
     const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
-    bodyOf_.resize(std::max<std::size_t>(bodyOf_.size(), handle + 1), 0);
+    if (bodyOf_.size() <= handle) makeRoom(handle + 1 - bodyOf_.size(), bodyOf_), bodyOf_.resize(handle + 1, 0);
     bodyOf_[handle] = collider_.addBody(body);
     movers_ += body.moves;
     if (body.kinematic) kinematic_.push_back(bodyOf_[handle]);

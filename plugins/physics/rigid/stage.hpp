@@ -75,6 +75,7 @@ public:
     /// Bodies that stand were moved or changed.
     void rearrange() { collider_.rearrange(); }
     std::size_t bytes() const;
+    void fitRoom() { collider_.fitRoom(), bodyOf_.shrink_to_fit(); }
 
     template <class Archive>
     void archive(Archive& with)
@@ -167,11 +168,11 @@ private:
 
     /// How a body moved between the last looks at it. Turns are ways of its farthest point.
     struct Watch {
-        double x = 0, y = 0, turned = 0;                 // as of the last look
-        double placeX = 0, placeY = 0, placeTurned = 0;  // near which it has stayed
-        float velocityX = 0, velocityY = 0, swing = 0;   // mean before the last look
-        float stayed = 0;                                // seconds
-        std::uint64_t looks = 0;
+        float placeX = 0, placeY = 0, placeTurned = 0;  // near which it has stayed
+        float x = 0, y = 0, turned = 0;                 // as of the last look, from there
+        float velocityX = 0, velocityY = 0, swing = 0;  // mean before the last look
+        float stayed = 0;                               // seconds
+        std::uint32_t looks = 0;
     };
     std::vector<Watch> watches_;    // [bodies]
     std::vector<Index> group_;      // [bodies] that fell asleep together: the least of them

@@ -174,14 +174,17 @@ private:
 
 void Weld::add(const PartOutline* outline)
 {
-    ownOf_.push_back(outline != nullptr ? static_cast<std::uint32_t>(own_.size()) : kNoOutline);
-    if (outline != nullptr) own_.push_back(*outline);
+    ++parts_;
+    if (outline == nullptr) return;
+    ownOf_.cover(parts_);
+    ownOf_[parts_ - 1] = static_cast<std::uint32_t>(own_.size());
+    own_.push_back(*outline);
 }
 
 void Weld::run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const State& state, float typicalLength)
 {
     outlines_ = own_;
-    for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outline = ownOf_[p];
+    for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outline = std::as_const(ownOf_)[p];
     using Kind = decltype(kindOf(bodies[0]));
     std::map<Kind, std::vector<Index>> kinds;
     for (Index i = 1; i < bodies.size(); ++i)

@@ -2,8 +2,10 @@
 // no seam. Sides are flush when they have both ends in common; tiles of different size are not welded.
 #pragma once
 
+#include "column.hpp"
 #include "contact.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace jet::physics {
@@ -23,7 +25,8 @@ public:
 
 private:
     std::vector<PartOutline> own_, outlines_;
-    std::vector<std::uint32_t> ownOf_;  // [parts] into own_, or kNoOutline
+    Column<std::uint32_t> ownOf_{kNoOutline};  // [parts] into own_; up to the last that has one
+    std::size_t parts_ = 0;
 };
 
 }  // namespace jet::physics
