@@ -378,6 +378,7 @@ void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
     const float lengthA = parts_[partA].length, lengthB = parts_[partB].length;
     c.slop = kSlop * (!bodyA.moves ? lengthB : !bodyB.moves ? lengthA : std::min(lengthA, lengthB));
     c.resolve = !bodyA.sensor && !bodyB.sensor;
+    c.special = bodyA.isOneSided() || bodyB.isOneSided() || isLonger(partA, partB);
     Nearing n;
     n.bodyA = a, n.bodyB = b, n.slop = c.slop;
     n.thin = kThin * std::min(parts_[partA].thickness, parts_[partB].thickness);

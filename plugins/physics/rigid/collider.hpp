@@ -6,6 +6,7 @@
 #pragma once
 
 #include "domains.hpp"
+#include "look.hpp"
 #include "pairs.hpp"
 #include "pool.hpp"
 #include "sift.hpp"
@@ -74,9 +75,12 @@ public:
     struct Look {
         bool kept = true;   // false: they are far apart and the pair is to be forgotten
         bool hits = false;  // so hard, in this step, that what lies behind must be known
+        float speed = 0;    // hitSpeed() of a pair with points
     };
     /// Brings the pair's points up to date. Different contacts may be updated at once.
     Look update(RigidContact&, double dt);
+    /// The same for many, eight at a time.
+    void update(const std::vector<Index>& which, std::vector<Look>& looks, double dt, const Looker&);
     /// Of up to eight contacts without points: a bit for each that update() would keep without points, and it is done.
     std::uint32_t sift(const Index* which, std::size_t count, double dt, const Sieve&);
     void forget(Index contact);
@@ -166,6 +170,12 @@ private:
     float withinBox(Index body, const Vec2& move, double dt) const;
     float untilCentrePasses(const RigidContact&, const Vec2& relativeMove) const;
     float closingSpeed(const RigidContact&) const;
+    enum Kind : std::uint8_t { kCircles, kDiscs, kPolygons, kAlone, kKinds };
+    Kind kindOf(const RigidContact&) const;
+    void update(Kind, const std::size_t* places, std::size_t count, const std::vector<Index>& which,
+                std::vector<Look>& looks, double dt, const Looker&);
+    Look take(RigidContact&, const Seen&, std::size_t lane, double dt);
+    bool noteHit(const RigidContact&, bool fast);
     bool reuse(RigidContact&, const Relative&, float reach) const;
     void renew(RigidContact&, const Manifold&, const Relative&, float reach) const;
     bool staysApart(const RigidContact&, const Relative&, float reach);

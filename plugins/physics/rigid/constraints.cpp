@@ -13,6 +13,11 @@ constexpr float kPushPerSlop = kPushLengths * kSlopsPerLength;
 constexpr std::uint32_t kGroupsABlock = 16;
 constexpr std::size_t kIdleABlock = 512;
 
+void prefetch(const Part& part)
+{
+    for (std::size_t at = 0; at < sizeof part; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(&part) + at);
+}
+
 }  // namespace
 
 template <class Real>
@@ -106,6 +111,7 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
     const bool all = collider.anyDisturbed();
     const Pose* poses = collider.poses().data();
     const Colour& colour = colours_[block.colour];
+    block.due.clear();
     for (std::size_t group = block.first; group < block.last; ++group) {
         const ContactLanes<Real>& g = colour.contacts[group];
         const Index* index = &colour.index[group * kWidth];
@@ -123,16 +129,21 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             if (!due[lane]) continue;
             RigidContact& c = contacts[index[lane]];
             if (!collider.due(c)) continue;
-            const Place place = placeOf(block.colour, group * kWidth + lane);
-            fetch(c, place);
-            const Collider::Look look = collider.update(c, dt);
-            block.foresees |= look.hits;
-            if (look.kept && c.count > 0 && c.resolve && resolve) {
-                write(collider, c, place);
-                block.hardest = std::max(block.hardest, collider.hitSpeed(c));
-            } else {
-                block.outcomes.push_back({index[lane], look.kept});
-            }
+            for (const Index part : {c.partA, c.partB}) prefetch(collider.parts()[part]);
+            fetch(c, placeOf(block.colour, group * kWidth + lane));
+            block.due.push_back(index[lane]);
+        }
+    }
+    collider.update(block.due, block.looks, dt, looker(shape_.choice));
+    for (std::size_t i = 0; i < block.due.size(); ++i) {
+        const Collider::Look& look = block.looks[i];
+        const RigidContact& c = contacts[block.due[i]];
+        block.foresees |= look.hits;
+        if (look.kept && c.count > 0 && c.resolve && resolve) {
+            write(collider, c, collider.places()[block.due[i]]);
+            block.hardest = std::max(block.hardest, look.speed);
+        } else {
+            block.outcomes.push_back({block.due[i], look.kept});
         }
     }
 }
@@ -161,17 +172,20 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, std::size_t first,
     }
     block.due.resize(due);
     const Sieve& pairs = sieve(shape_.choice);
-    std::uint32_t apart = 0;
-    for (std::size_t at = 0; at < block.due.size(); ++at) {
-        const std::size_t lane = at % Sieve::kPairs;
-        if (lane == 0)
-            apart =
-                collider.sift(&block.due[at], std::min<std::size_t>(Sieve::kPairs, block.due.size() - at), dt, pairs);
-        if ((apart >> lane & 1U) != 0) continue;
-        RigidContact& c = collider.contacts()[block.due[at]];
-        const Collider::Look look = collider.update(c, dt);
+    std::size_t left = 0;
+    for (std::size_t at = 0; at < due; at += Sieve::kPairs) {
+        const std::size_t count = std::min<std::size_t>(Sieve::kPairs, due - at);
+        std::uint32_t near = ~collider.sift(&block.due[at], count, dt, pairs) & ((1U << count) - 1);
+        for (; near != 0; near &= near - 1)
+            block.due[left++] = block.due[at + static_cast<std::size_t>(__builtin_ctz(near))];
+    }
+    block.due.resize(left);
+    collider.update(block.due, block.looks, dt, looker(shape_.choice));
+    for (std::size_t i = 0; i < left; ++i) {
+        const Collider::Look& look = block.looks[i];
+        const RigidContact& c = collider.contacts()[block.due[i]];
         block.foresees |= look.hits;
-        if (!look.kept || c.touching || c.count > 0) block.outcomes.push_back({block.due[at], look.kept});
+        if (!look.kept || c.touching || c.count > 0) block.outcomes.push_back({block.due[i], look.kept});
     }
 }
 

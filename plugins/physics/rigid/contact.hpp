@@ -24,6 +24,7 @@ struct RigidBody {
     float oneSidedX = 0, oneSidedY = 0;  // unit, or null
 
     bool takesPart() const { return enabled && !asleep; }
+    bool isOneSided() const { return oneSidedX != 0 || oneSidedY != 0; }
     void setOneSided(const Vec2& direction)
     {
         const double length = direction.norm();
@@ -84,7 +85,8 @@ struct alignas(16) RigidContact {
     bool resolve = true;           // false: sensors, or a platform passed from behind
     bool due = true;               // to be looked at in the next step in any case
     bool foreseen = false;         // its point is one of a hit later in the step
-    std::uint16_t unused = 0;
+    bool special = false;          // one-sided, or of very different lengths: looked at alone
+    std::uint8_t unused = 0;
     std::uint16_t ids[2] = {0, 0};
     float stepImpulse = 0;                                  // sum over the step, mass units / s
     Vec2f normal;                                           // in A's frame, from A to B

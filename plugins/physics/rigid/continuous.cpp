@@ -7,8 +7,6 @@ namespace jet::physics {
 
 namespace {
 
-constexpr float kFast = 0.5F;  // lengths a step: faster pairs are foreseen by their time of impact
-
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
 }  // namespace

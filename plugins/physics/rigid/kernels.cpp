@@ -1,4 +1,5 @@
 // Which kernels the processor can run.
+#include "look.hpp"
 #include "sift.hpp"
 #include "solver_data.hpp"
 
@@ -23,6 +24,7 @@ const Kernels<double>& kernels<double>(KernelChoice choice)
     return wide(choice) ? avx2::doubles : sse2::doubles;
 }
 
+const Looker& looker(KernelChoice choice) { return wide(choice) ? avx2::pairLooker : sse2::pairLooker; }
 const Sieve& sieve(KernelChoice choice) { return wide(choice) ? avx2::pairSieve : sse2::pairSieve; }
 
 }  // namespace jet::physics

@@ -20,7 +20,7 @@ double signedArea(const Vec2* at, int count)
 Part makePart(const Vec2* corners, int count, double radius)
 {
     Part part;
-    part.count = static_cast<std::uint8_t>(count);
+    part.count = count;
     part.radius = static_cast<float>(radius);
     const double area = signedArea(corners, count);
     part.reversed = area < 0;
@@ -41,6 +41,8 @@ Part makePart(const Vec2* corners, int count, double radius)
         for (int k = 0; k < count; ++k) deepest = std::max(deepest, (at - corners[k]).dot(normal));
         thickness = std::min(thickness, deepest);
     }
+    for (int i = count; i <= kMostCorners; ++i) part.corners[i] = part.corners[0];
+    for (int i = count; i < kMostCorners; ++i) part.normals[i] = part.normals[0];
     part.centre = single(centre);
     part.reach = static_cast<float>(reach);
     part.thickness = static_cast<float>((count > 1 ? thickness : 0) + 2 * radius);

@@ -35,18 +35,20 @@ struct PartOutline {
     Vec2f before[kMostCorners], after[kMostCorners];
 };
 
-struct Part {
+/// In rows of 16 bytes, as the wide looks read them (look.inc.hpp). Corners and normals beyond the last are those of
+/// the first again, so that the corner after any is the next.
+struct alignas(16) Part {
+    float radius = 0;        // units
+    float length = 0;        // typical size, units: tolerances are fractions of it
+    float reach = 0;         // units: farthest point from the body's centre of mass
+    int count = 0;           // corners: 1 circle, 2 capsule, 3.. polygon
     std::uint32_t body = 0;  // index of the rigid body
     std::uint32_t outline = kNoOutline;
-    std::uint8_t count = 0;       // corners: 1 circle, 2 capsule, 3.. polygon
-    bool reversed = false;        // do they lie in the other direction than they were given in?
-    float radius = 0;             // units
-    float length = 0;             // typical size, units: tolerances are fractions of it
-    float thickness = 0;          // units: the narrowest way through it
-    float reach = 0;              // units: farthest point from the body's centre of mass
-    Vec2f centre;                 // of the corners, in the body's frame
-    Vec2f corners[kMostCorners];  // in the body's frame, so that normals are to the right of the way round
-    Vec2f normals[kMostCorners];  // unit, outward, of the side from corner i to i + 1; a segment has two
+    Vec2f centre;                     // of the corners, in the body's frame
+    Vec2f normals[kMostCorners];      // unit, outward, of the side from corner i to i + 1; a segment has two
+    Vec2f corners[kMostCorners + 1];  // in the body's frame, so that normals are to the right of the way round
+    float thickness = 0;              // units: the narrowest way through it
+    bool reversed = false;            // do they lie in the other direction than they were given in?
 };
 
 /// Where B's frame is in A's.

@@ -8,10 +8,7 @@ namespace jet::physics {
 
 namespace {
 
-constexpr float kSpeculative = 6;  // slops: nearer than this a pair gets points even without closing speed; quiet
-                                   // bodies may come two of them nearer before the pair is looked at again
-constexpr float kReuseMove = 1.0F, kReuseTurn = 0.01F;  // slops, radians: points are kept
-constexpr float kFast = 0.5F;  // lengths a step: faster pairs are foreseen by their time of impact
+constexpr std::size_t kFewest = 3;  // pairs: fewer are looked at one by one
 
 }  // namespace
 
@@ -80,10 +77,84 @@ Collider::Look Collider::update(RigidContact& c, double dt)
         if (c.count == 0 && c.resolve && travel > kFast * shorter) foresee(c, at, dt);
         decideSide(c);
     }
-    // What overlaps from a hit before is hit again.
-    const bool hits = c.foreseen || (fast_ && c.nearest() <= 0 && travel > kFast * shorter);
+    return {.hits = noteHit(c, travel > kFast * shorter), .speed = c.count > 0 ? hitSpeed(c) : 0};
+}
+
+/// What overlaps from a hit before is hit again.
+bool Collider::noteHit(const RigidContact& c, bool fast)
+{
+    const bool hits = c.foreseen || (fast && fast_ && c.nearest() <= 0);
     if (hits) hits_[static_cast<std::size_t>(&c - contacts_.data())] = 1;
-    return {.hits = hits};
+    return hits;
+}
+
+/// Outlines, platforms and long parts have rules of their own. Without a jump: what comes next follows no pattern.
+Collider::Kind Collider::kindOf(const RigidContact& c) const
+{
+    const Part &a = parts_[c.partA], &b = parts_[c.partB];
+    const bool alone = c.special | c.passing | ((a.outline & b.outline) != kNoOutline);
+    return static_cast<Kind>(alone ? kAlone : (a.count > 1) + (b.count > 1));  // a circle is always second
+}
+
+void Collider::update(const std::vector<Index>& which, std::vector<Look>& looks, double dt, const Looker& looker)
+{
+    looks.resize(which.size());
+    std::size_t waiting[kKinds][Looker::kPairs], count[kKinds] = {};
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        const Kind kind = kindOf(contacts_[which[i]]);
+        waiting[kind][count[kind]++] = i;
+        if (count[kind] < Looker::kPairs) continue;
+        update(kind, waiting[kind], Looker::kPairs, which, looks, dt, looker);
+        count[kind] = 0;
+    }
+    for (const Kind kind : {kCircles, kDiscs, kPolygons, kAlone})
+        if (count[kind] > 0) update(kind, waiting[kind], count[kind], which, looks, dt, looker);
+}
+
+void Collider::update(Kind kind, const std::size_t* places, std::size_t count, const std::vector<Index>& which,
+                      std::vector<Look>& looks, double dt, const Looker& looker)
+{
+    if (kind == kAlone || count < kFewest) {
+        for (std::size_t i = 0; i < count; ++i) looks[places[i]] = update(contacts_[which[places[i]]], dt);
+        return;
+    }
+    Index lanes[Looker::kPairs];
+    int mostA = 1, mostB = 1;
+    for (std::size_t i = 0; i < Looker::kPairs; ++i) {
+        lanes[i] = which[places[i < count ? i : 0]];
+        mostA = std::max(mostA, parts_[contacts_[lanes[i]].partA].count);
+        mostB = std::max(mostB, parts_[contacts_[lanes[i]].partB].count);
+    }
+    const LookInput input{
+        contacts_.data(),      poses_.data(), sweep_.boxes(), parts_.data(), surprised_ ? surprise_.data() : nullptr,
+        static_cast<float>(dt)};
+    Seen seen;
+    switch (kind) {
+    case kCircles: looker.circles(input, lanes, seen); break;
+    case kDiscs: looker.discs(input, lanes, mostA, seen); break;
+    default: looker.polygons(input, lanes, mostA, mostB, seen);
+    }
+    for (std::size_t i = 0; i < count; ++i) looks[places[i]] = take(contacts_[lanes[i]], seen, i, dt);
+}
+
+/// What is left to do of update() after a wide look.
+Collider::Look Collider::take(RigidContact& c, const Seen& seen, std::size_t lane, double dt)
+{
+    const auto has = [&](std::uint32_t bits) { return (bits >> lane & 1U) != 0; };
+    if (!has(seen.meet)) return {.kept = false};
+    const bool reused = has(seen.reused), fast = has(seen.fast);
+    if (!reused) noteGap(c, seen.gap[lane]);
+    if (has(seen.apart)) return {};
+    Look look{.speed = seen.speed[lane]};
+    if (fast && !reused) {
+        if (c.count > 0 && c.nearest() > 0) c.count = 0;
+        if (c.count == 0 && c.resolve) {
+            foresee(c, Relative(c.at), dt);
+            look.speed = c.count > 0 ? hitSpeed(c) : 0;
+        }
+    }
+    look.hits = noteHit(c, fast);
+    return look;
 }
 
 std::uint32_t Collider::sift(const Index* which, std::size_t count, double dt, const Sieve& sieve)

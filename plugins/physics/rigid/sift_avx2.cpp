@@ -4,5 +4,7 @@
 #include <cmath>
 
 namespace jet::physics::avx2 {
+#include "lane_ops.inc.hpp"
+
 #include "sift.inc.hpp"
 }  // namespace jet::physics::avx2

@@ -150,7 +150,8 @@ private:
         std::uint32_t colour = 0, first = 0, last = 0;
         float hardest = 0;
         bool foresees = false;
-        std::vector<Index> due;  // contacts without points
+        std::vector<Index> due;  // contacts to be looked at
+        std::vector<Collider::Look> looks;
         std::vector<Outcome> outcomes;
     };
     void refreshPlaced(Collider&, double dt, bool resolve);

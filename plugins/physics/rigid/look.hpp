@@ -1,0 +1,54 @@
+// A full look at eight pairs at once: where they are, whether the points they had will do, else touching points by
+// separating axes and clipping, with the impulses of those that stay. What one pair gets is what Collider::update()
+// gives it alone, to the last bit.
+#pragma once
+
+#include "contact.hpp"
+#include "solver_data.hpp"
+
+namespace jet::physics {
+
+inline constexpr float kSpeculative = 6;  // slops: nearer than this a pair gets points even without closing speed;
+                                          // quiet bodies may come two of them nearer before the pair is looked at again
+inline constexpr float kReuseMove = 1.0F, kReuseTurn = 0.01F;  // slops, radians: points are kept
+inline constexpr float kFast = 0.5F;  // lengths a step: faster pairs are foreseen by their time of impact
+
+struct LookInput {
+    RigidContact* contacts = nullptr;
+    const Pose* poses = nullptr;      // [bodies]
+    const FatBox* boxes = nullptr;    // [parts]
+    const Part* parts = nullptr;      // [parts]
+    const float* surprise = nullptr;  // [bodies] units a hit may carry it in this step; null: nobody is hit
+    float dt = 0;                     // seconds
+};
+
+/// What was seen: a bit for each pair.
+struct Seen {
+    std::uint32_t meet = 0;    // their boxes do; the others are as they were
+    std::uint32_t apart = 0;   // without points, and so far apart that none were sought
+    std::uint32_t reused = 0;  // the points they had were kept
+    std::uint32_t fast = 0;    // may come nearer by more than kFast of the smaller part
+    float gap[8] = {};         // units apart at least, or null
+    float speed[8] = {};       // of the first point, in lengths of the smaller part a second: Collider::hitSpeed()
+};
+
+/// Eight pairs of parts without outlines, none of them one-sided; some may be the same.
+struct Looker {
+    static constexpr int kPairs = 8;
+    /// Of two circles.
+    void (*circles)(const LookInput&, const Index* which, Seen&) = nullptr;
+    /// Of a polygon or capsule and a circle; `most`: corners.
+    void (*discs)(const LookInput&, const Index* which, int most, Seen&) = nullptr;
+    /// Of two polygons or capsules.
+    void (*polygons)(const LookInput&, const Index* which, int mostA, int mostB, Seen&) = nullptr;
+};
+const Looker& looker(KernelChoice);
+
+namespace sse2 {
+extern const Looker pairLooker;
+}  // namespace sse2
+namespace avx2 {
+extern const Looker pairLooker;
+}  // namespace avx2
+
+}  // namespace jet::physics
