@@ -248,7 +248,7 @@ void Solver<Real>::copyLane(const Colour& from, std::size_t source, Colour& to, 
     for (int k = 0; k < 2; ++k) {
         const auto& p = g.points[k];
         auto& q = h.points[k];
-        copy(p.leverA, q.leverA), copy(p.leverB, q.leverB), copy(p.separation, q.separation);
+        copy(p.leverA, q.leverA), copy(p.leverB, q.leverB), copy(p.separation, q.separation), copy(p.now, q.now);
         copy(p.mass, q.mass), copy(p.impulse, q.impulse);
         const auto& s = f.points[k];
         auto& t = e.points[k];
@@ -307,7 +307,7 @@ void Solver<Real>::remove(Collider& collider, Index contact)
     clear(g.normalX), clear(g.normalY), clear(g.mostPush), clear(f.friction);
     for (int k = 0; k < 2; ++k) {
         clear(g.points[k].leverA), clear(g.points[k].leverB), clear(g.points[k].separation);
-        clear(g.points[k].mass), clear(g.points[k].impulse);
+        clear(g.points[k].now), clear(g.points[k].mass), clear(g.points[k].impulse);
         clear(f.points[k].leverA), clear(f.points[k].leverB), clear(f.points[k].mass), clear(f.points[k].impulse);
         clear(f.points[k].total);
     }
@@ -350,20 +350,23 @@ void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place 
         auto& q = f.points[k];
         if (k >= c.count) {
             p.leverA[lane] = p.leverB[lane] = q.leverA[lane] = q.leverB[lane] = 0;
-            p.separation[lane] = p.mass[lane] = q.mass[lane] = p.impulse[lane] = q.impulse[lane] = q.total[lane] = 0;
+            p.separation[lane] = p.now[lane] = p.mass[lane] = p.impulse[lane] = 0;
+            q.mass[lane] = q.impulse[lane] = q.total[lane] = 0;
             continue;
         }
         // Both arms end in one place, half way between the surfaces.
         // Far ones, of foreseen hits, act on the surfaces.
         const Vec2f half = (c.separation[k] < 20 * c.slop ? 0.5F * c.separation[k] : 0.0F) * n;
         const Vec2f armA = turned(poseA.turn, c.onA[k]) + half, armB = turned(poseB.turn, c.onB[k]) - half;
-        const Real leverA = armA.x * ny - armA.y * nx, leverB = armB.x * ny - armB.y * nx;
-        const Real slideA = armA.x * nx + armA.y * ny, slideB = armB.x * nx + armB.y * ny;
+        const Real leverA = (armA.x * ny - armA.y * nx) * a.perGyration,
+                   leverB = (armB.x * ny - armB.y * nx) * b.perGyration;
+        const Real slideA = (armA.x * nx + armA.y * ny) * a.perGyration,
+                   slideB = (armB.x * nx + armB.y * ny) * b.perGyration;
         p.leverA[lane] = leverA, p.leverB[lane] = leverB;
         q.leverA[lane] = slideA, q.leverB[lane] = slideB;
-        p.separation[lane] = c.separation[k] + c.slop;
-        const Real k1 = inverse + a.invInertia * leverA * leverA + b.invInertia * leverB * leverB;
-        const Real k2 = inverse + a.invInertia * slideA * slideA + b.invInertia * slideB * slideB;
+        p.separation[lane] = p.now[lane] = c.separation[k] + c.slop;
+        const Real k1 = inverse + a.invMass * leverA * leverA + b.invMass * leverB * leverB;
+        const Real k2 = inverse + a.invMass * slideA * slideA + b.invMass * slideB * slideB;
         p.mass[lane] = k1 > 0 ? 1 / k1 : 0, q.mass[lane] = k2 > 0 ? 1 / k2 : 0;
         p.impulse[lane] = c.impulse[k], q.impulse[lane] = c.tangentImpulse[k];
     }

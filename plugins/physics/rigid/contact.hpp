@@ -18,6 +18,7 @@ struct RigidBody {
     bool mayRest = true;
     bool enabled = true;
     bool asleep = false, posed = false;  // rests; its pose was taken since it does
+    double gyration = 1;                 // its radius, units
     float length = 1;                    // typical size, units
     float finest = 0;                    // the same of its smallest part
     float reach = 0;                     // farthest point from the centre, units

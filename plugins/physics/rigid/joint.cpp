@@ -15,13 +15,13 @@ Softness<double> softnessOf(double hertz, double dampingRatio, double h)
 template <class Real>
 void JointRow<Real>::apply(BodyState<Real>& stateA, BodyState<Real>& stateB, Real p) const
 {
-    if (stateA.invMass > 0 || stateA.invInertia > 0) {
+    if (stateA.invMass > 0) {
         stateA.velocityX += stateA.invMass * ax * p, stateA.velocityY += stateA.invMass * ay * p;
-        stateA.omega += stateA.invInertia * angularA * p;
+        stateA.spin += stateA.invMass * angularA * p;
     }
-    if (stateB.invMass > 0 || stateB.invInertia > 0) {
+    if (stateB.invMass > 0) {
         stateB.velocityX += stateB.invMass * bx * p, stateB.velocityY += stateB.invMass * by * p;
-        stateB.omega += stateB.invInertia * angularB * p;
+        stateB.spin += stateB.invMass * angularB * p;
     }
 }
 
@@ -35,16 +35,16 @@ template <class Real>
 Real JointRow<Real>::moving(const BodyState<Real>* bodies) const
 {
     const BodyState<Real>&stateA = bodies[a], &stateB = bodies[b];
-    return ax * stateA.velocityX + ay * stateA.velocityY + angularA * stateA.omega + bx * stateB.velocityX +
-           by * stateB.velocityY + angularB * stateB.omega;
+    return ax * stateA.velocityX + ay * stateA.velocityY + angularA * stateA.spin + bx * stateB.velocityX +
+           by * stateB.velocityY + angularB * stateB.spin;
 }
 
 template <class Real>
 Real JointRow<Real>::moved(const BodyState<Real>* bodies) const
 {
     const BodyState<Real>&stateA = bodies[a], &stateB = bodies[b];
-    return ax * stateA.moveX + ay * stateA.moveY + angularA * stateA.turn + bx * stateB.moveX + by * stateB.moveY +
-           angularB * stateB.turn;
+    return ax * stateA.moveX + ay * stateA.moveY + angularA * stateA.sweep + bx * stateB.moveX + by * stateB.moveY +
+           angularB * stateB.sweep;
 }
 
 template <class Real>
@@ -115,14 +115,13 @@ public:
     {
         JointRow<Real> row;
         row.a = a_, row.b = b_, row.joint = index_, row.slot = static_cast<Index>(slot);
-        row.ax = static_cast<Real>(ja.x()), row.ay = static_cast<Real>(ja.y()),
-        row.angularA = static_cast<Real>(angularA);
-        row.bx = static_cast<Real>(jb.x()), row.by = static_cast<Real>(jb.y()),
-        row.angularB = static_cast<Real>(angularB);
         const BodyState<Real>&a = states_[a_], &b = states_[b_];
-        const Real inverse =
-            a.invMass * (row.ax * row.ax + row.ay * row.ay) + a.invInertia * row.angularA * row.angularA +
-            b.invMass * (row.bx * row.bx + row.by * row.by) + b.invInertia * row.angularB * row.angularB;
+        row.ax = static_cast<Real>(ja.x()), row.ay = static_cast<Real>(ja.y()),
+        row.angularA = static_cast<Real>(angularA) * a.perGyration;
+        row.bx = static_cast<Real>(jb.x()), row.by = static_cast<Real>(jb.y()),
+        row.angularB = static_cast<Real>(angularB) * b.perGyration;
+        const Real inverse = a.invMass * (row.ax * row.ax + row.ay * row.ay + row.angularA * row.angularA) +
+                             b.invMass * (row.bx * row.bx + row.by * row.by + row.angularB * row.angularB);
         row.mass = inverse > 0 ? 1 / inverse : 0;
         row.impulse = static_cast<Real>(joint_.impulse[slot]);
         row.least = static_cast<Real>(-kUnlimited), row.most = static_cast<Real>(kUnlimited);
@@ -269,7 +268,7 @@ JointFrame TurningRows<Real>::frameIn(const BodyState<Real>* states, double seco
     JointFrame f = start_;
     const auto carry = [&](Index slot, Vec2& arm, Vec2& point) {
         const BodyState<Real>& s = states[slot];
-        const double turn = static_cast<double>(s.turn) + seconds * static_cast<double>(s.omega);
+        const double turn = static_cast<double>(s.turn()) + seconds * static_cast<double>(s.omega());
         const Vec2 move(static_cast<double>(s.moveX) + seconds * static_cast<double>(s.velocityX),
                         static_cast<double>(s.moveY) + seconds * static_cast<double>(s.velocityY));
         const Vec2 turned = rotated(direction(turn), arm);
@@ -300,9 +299,9 @@ void TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* push
     if (!make(frameIn(states, 0), states, h, made)) return;
     const auto follow = [&](Index slot, Real x, Real y, Real angular) {
         const BodyState<Real>& s = states[slot];
-        if (s.invMass == 0 && s.invInertia == 0) return;
+        if (s.invMass == 0) return;
         pushes[slot].warmX += s.invMass * x, pushes[slot].warmY += s.invMass * y;
-        pushes[slot].warmW += s.invInertia * angular;
+        pushes[slot].warmW += s.invMass * angular;
     };
     for (std::size_t i = 0; i < count_; ++i) {
         JointRow<Real>&old = rows[first_ + i], &row = made[i];
@@ -319,7 +318,7 @@ void TurningRows<Real>::foresee(const BodyState<Real>* states, double h, std::ve
                                 std::vector<JointRow<Real>>& made) const
 {
     // A body that turns by more than a radian is not foreseen farther than that.
-    const Real fastest = std::max(std::abs(states[a_].omega), std::abs(states[b_].omega));
+    const Real fastest = std::max(std::abs(states[a_].omega()), std::abs(states[b_].omega()));
     const double ahead = std::min(h, fastest > 0 ? 1 / static_cast<double>(fastest) : h);
     if (!make(frameIn(states, ahead), states, h, made)) return;
     for (std::size_t i = 0; i < count_; ++i) {

@@ -2,8 +2,9 @@
 //
 // Each joint is at most one point-to-point constraint, solved in wide kernels, and a few rows. A row says: the speed
 // J v, with J = (jA, angularA, jB, angularB), shall be such that the error C decays; its impulse is limited. The
-// effective mass is 1 / (J M⁻¹ Jᵀ). Within half a substep C = C0 + J (moves since the start); rows whose J depends on
-// where the bodies are are made anew once a substep, see solver_data.hpp.
+// effective mass is 1 / (J M⁻¹ Jᵀ); angular parts are in radii of gyration (solver_data.hpp). Within half a substep C =
+// C0 + J (moves since the start); rows whose J depends on where the bodies are are made anew once a substep, see
+// solver_data.hpp.
 #pragma once
 
 #include "contact.hpp"
@@ -11,6 +12,7 @@
 
 #include <jet/physics.hpp>
 
+#include <cmath>
 #include <vector>
 
 namespace jet::physics {
@@ -35,6 +37,11 @@ struct JointRow {
     /// J times the velocities, and the moves, of its bodies.
     Real moving(const BodyState<Real>* bodies) const;
     Real moved(const BodyState<Real>* bodies) const;
+    /// Of its impulse, when it is a row of turning alone; mass units² / s.
+    double torqueOfB() const
+    {
+        return std::copysign(1.0, static_cast<double>(angularB)) * static_cast<double>(impulse);
+    }
 
 private:
     void apply(BodyState<Real>& a, BodyState<Real>& b, Real impulse) const;

@@ -38,11 +38,11 @@ JET_INLINE Values most(const Values& a, const Values& b)
 /// The states of a group's bodies, one value of each lane together.
 template <class Real>
 struct BodyLanes {
-    Lanes<Real> velocityX, velocityY, omega, invMass;
+    Lanes<Real> velocityX, velocityY, spin, invMass;
 };
 template <class Real>
 struct MoveLanes {
-    Lanes<Real> moveX, moveY, turn, invInertia;
+    Lanes<Real> moveX, moveY, sweep, perGyration;
 };
 
 typedef float Four __attribute__((vector_size(16), may_alias));
@@ -78,16 +78,18 @@ JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, con
 {
     const Lanes<float> t0 = __builtin_shufflevector(s.velocityX, s.velocityY, 0, 8, 1, 9, 4, 12, 5, 13);
     const Lanes<float> t1 = __builtin_shufflevector(s.velocityX, s.velocityY, 2, 10, 3, 11, 6, 14, 7, 15);
-    const Lanes<float> t2 = __builtin_shufflevector(s.omega, s.invMass, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes<float> t3 = __builtin_shufflevector(s.omega, s.invMass, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes<float> t2 = __builtin_shufflevector(s.spin, s.invMass, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t3 = __builtin_shufflevector(s.spin, s.invMass, 2, 10, 3, 11, 6, 14, 7, 15);
     const Lanes<float> c[4] = {__builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13),
                                __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15),
                                __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13),
                                __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15)};
+    // What never moves may be in many groups, of other threads, too.
+    const int moving = __builtin_ia32_movmskps256((Lanes<float>)(s.invMass != Lanes<float>{}));
     for (int i = 0; i < 4; ++i) {
-        if (bodies[index[i]].invMass != 0)
+        if (moving == 0xff || (moving >> i & 1) != 0)
             *reinterpret_cast<Four*>(&bodies[index[i]]) = __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3);
-        if (bodies[index[i + 4]].invMass != 0)
+        if (moving == 0xff || (moving >> (i + 4) & 1) != 0)
             *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
     }
 }
@@ -119,7 +121,7 @@ JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, con
     for (int side = 0; side < 2; ++side) {
         const auto of = [&](const Lanes<float>& row) { return reinterpret_cast<const Four*>(&row)[side]; };
         Four out[4];
-        transpose(of(s.velocityX), of(s.velocityY), of(s.omega), of(s.invMass), out);
+        transpose(of(s.velocityX), of(s.velocityY), of(s.spin), of(s.invMass), out);
         for (int i = 0; i < 4; ++i) {
             BodyState<float>& body = bodies[index[4 * side + i]];
             if (body.invMass != 0) *reinterpret_cast<Four*>(&body) = out[i];
@@ -150,7 +152,7 @@ JET_INLINE void scatter(BodyState<double>* bodies, const std::int32_t* index, co
     for (int i = 0; i < 4; ++i) {
         BodyState<double>& body = bodies[index[i]];
         if (body.invMass == 0) continue;
-        body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.omega = s.omega[i];
+        body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.spin = s.spin[i];
     }
 }
 
@@ -158,33 +160,32 @@ template <class Real>
 JET_INLINE BodyLanes<Real> velocities(const BodyState<Real>* bodies, const std::int32_t* index)
 {
     BodyLanes<Real> s;
-    gather(bodies, index, 0, s.velocityX, s.velocityY, s.omega, s.invMass);
+    gather(bodies, index, 0, s.velocityX, s.velocityY, s.spin, s.invMass);
     return s;
 }
 template <class Real>
 JET_INLINE MoveLanes<Real> moves(const BodyState<Real>* bodies, const std::int32_t* index)
 {
     MoveLanes<Real> s;
-    gather(bodies, index, 1, s.moveX, s.moveY, s.turn, s.invInertia);
+    gather(bodies, index, 1, s.moveX, s.moveY, s.sweep, s.perGyration);
     return s;
 }
 
 /// An impulse along a direction with its levers; on B, and against it on A.
 template <class Real>
-JET_INLINE void push(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& invInertiaA,
-                     const Lanes<Real>& invInertiaB, const Lanes<Real>& x, const Lanes<Real>& y,
+JET_INLINE void push(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x, const Lanes<Real>& y,
                      const Lanes<Real>& leverA, const Lanes<Real>& leverB, const Lanes<Real>& impulse)
 {
-    const Lanes<Real> px = impulse * x, py = impulse * y;
-    a.velocityX -= a.invMass * px, a.velocityY -= a.invMass * py, a.omega -= invInertiaA * (leverA * impulse);
-    b.velocityX += b.invMass * px, b.velocityY += b.invMass * py, b.omega += invInertiaB * (leverB * impulse);
+    const Lanes<Real> changeA = a.invMass * impulse, changeB = b.invMass * impulse;
+    a.velocityX -= changeA * x, a.velocityY -= changeA * y, a.spin -= changeA * leverA;
+    b.velocityX += changeB * x, b.velocityY += changeB * y, b.spin += changeB * leverB;
 }
 
 template <class Real>
 JET_INLINE Lanes<Real> speedAlong(const BodyLanes<Real>& a, const BodyLanes<Real>& b, const Lanes<Real>& x,
                                   const Lanes<Real>& y, const Lanes<Real>& leverA, const Lanes<Real>& leverB)
 {
-    return x * (b.velocityX - a.velocityX) + y * (b.velocityY - a.velocityY) + leverB * b.omega - leverA * a.omega;
+    return x * (b.velocityX - a.velocityX) + y * (b.velocityY - a.velocityY) + leverB * b.spin - leverA * a.spin;
 }
 
 template <class Real>
@@ -195,12 +196,11 @@ void warmContacts(BodyState<Real>* bodies, const ContactLanes<Real>* groups, con
         const ContactLanes<Real>& c = groups[g];
         const FrictionLanes<Real>& f = frictions[g];
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         for (int k = 0; k < 2; ++k) {
             const auto& p = c.points[k];
             const auto& q = f.points[k];
-            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, p.impulse);
-            push<Real>(a, b, moveA.invInertia, moveB.invInertia, -c.normalY, c.normalX, q.leverA, q.leverB, q.impulse);
+            push<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB, p.impulse);
+            push<Real>(a, b, -c.normalY, c.normalX, q.leverA, q.leverB, q.impulse);
         }
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
@@ -208,19 +208,16 @@ void warmContacts(BodyState<Real>* bodies, const ContactLanes<Real>* groups, con
 }
 
 template <class Real>
-JET_INLINE void relaxNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
-                             const MoveLanes<Real>& moveA, const MoveLanes<Real>& moveB, const Lanes<Real>& zero,
+JET_INLINE void relaxNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& zero,
                              const StepConstants<Real>& step)
 {
-    const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
     for (auto& p : c.points) {
-        const Lanes<Real> s = p.separation + moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
-        const Lanes<Real> bias = most(s, zero) * step.inverseH;
+        const Lanes<Real> bias = most(p.now, zero) * step.inverseH;
         const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
         const Lanes<Real> impulse = most(p.impulse - p.mass * (speed + bias), zero);
         const Lanes<Real> change = impulse - p.impulse;
         p.impulse = impulse;
-        push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+        push<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB, change);
     }
 }
 
@@ -232,15 +229,13 @@ void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::siz
     for (std::size_t g = 0; g < count; ++g) {
         ContactLanes<Real>& c = groups[g];
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         const Mask<Real> still = (a.invMass == zero) | (b.invMass == zero);
         const Lanes<Real> rate = choose<Real>(still, all(step.still.biasRate), all(step.moving.biasRate));
         const Lanes<Real> massScale = choose<Real>(still, all(step.still.massScale), all(step.moving.massScale));
         const Lanes<Real> impulseScale =
             choose<Real>(still, all(step.still.impulseScale), all(step.moving.impulseScale));
-        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
         for (auto& p : c.points) {
-            const Lanes<Real> s = p.separation + moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
+            const Lanes<Real> s = p.now;
             const Mask<Real> apart = s > zero;
             const Lanes<Real> bias = choose<Real>(apart, s * step.inverseH, most(rate * s, -c.mostPush));
             const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
@@ -249,14 +244,14 @@ void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::siz
             const Lanes<Real> impulse = most(p.impulse + wanted, zero);
             const Lanes<Real> change = impulse - p.impulse;
             p.impulse = impulse;
-            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+            push<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB, change);
         }
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
 }
 
-/// Relaxes normals alone.
+/// Relaxes normals alone, where the bodies are now.
 template <class Real>
 void calmContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size_t count,
                   const StepConstants<Real>& step)
@@ -266,7 +261,9 @@ void calmContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size
         ContactLanes<Real>& c = groups[g];
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
-        relaxNormals<Real>(c, a, b, moveA, moveB, zero, step);
+        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
+        for (auto& p : c.points) p.now = p.separation + moved + p.leverB * moveB.sweep - p.leverA * moveA.sweep;
+        relaxNormals<Real>(c, a, b, zero, step);
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
@@ -281,7 +278,6 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
         ContactLanes<Real>& c = groups[g];
         FrictionLanes<Real>& f = frictions[g];
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         const Lanes<Real> tangentX = -c.normalY, tangentY = c.normalX;
         for (int k = 0; k < 2; ++k) {
             auto& q = f.points[k];
@@ -290,9 +286,9 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
             const Lanes<Real> impulse = least(most(q.impulse - q.mass * slide, -limit), limit);
             const Lanes<Real> change = impulse - q.impulse;
             q.impulse = impulse;
-            push<Real>(a, b, moveA.invInertia, moveB.invInertia, tangentX, tangentY, q.leverA, q.leverB, change);
+            push<Real>(a, b, tangentX, tangentY, q.leverA, q.leverB, change);
         }
-        relaxNormals<Real>(c, a, b, moveA, moveB, zero, step);
+        relaxNormals<Real>(c, a, b, zero, step);
         for (int k = 0; k < 2; ++k)
             f.points[k].total = step.totalKept * f.points[k].total + step.totalAdded * c.points[k].impulse;
         scatter(bodies, c.a, a);
@@ -322,21 +318,13 @@ void scaleContacts(ContactLanes<Real>* groups, FrictionLanes<Real>* frictions, s
 }
 
 template <class Real>
-void carryContacts(const BodyState<Real>* bodies, ContactLanes<Real>* groups, const FrictionLanes<Real>* frictions,
-                   std::uint32_t* bits, std::size_t count)
+void carryContacts(ContactLanes<Real>* groups, const FrictionLanes<Real>* frictions, std::uint32_t* bits,
+                   std::size_t count)
 {
     const Lanes<Real> zero = all<Real>(0);
     for (std::size_t g = 0; g < count; ++g) {
-        ContactLanes<Real>& c = groups[g];
-        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
-        const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
-        Lanes<Real> pushed = zero;
-        for (int k = 0; k < 2; ++k) {
-            auto& p = c.points[k];
-            p.separation += moved + p.leverB * moveB.turn - p.leverA * moveA.turn;
-            pushed = most(pushed, frictions[g].points[k].total);
-        }
-        bits[g] = bitsOf<Real>(pushed > zero);
+        for (auto& p : groups[g].points) p.separation = p.now;
+        bits[g] = bitsOf<Real>(most(frictions[g].points[0].total, frictions[g].points[1].total) > zero);
     }
 }
 
@@ -357,7 +345,6 @@ void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Frictio
             bouncing[k] = (r.restitution > zero) & (r.approach[k] < -step.restSpeed) & (f.points[k].total > zero);
         if (bitsOf<Real>(bouncing[0] | bouncing[1]) == 0) continue;
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         for (int k = 0; k < 2 * kPairPasses; ++k) {
             auto& p = c.points[k % 2];
             const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
@@ -365,23 +352,29 @@ void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Frictio
             const Lanes<Real> change = choose<Real>(bouncing[k % 2], wanted - p.impulse, zero);
             p.impulse += change;
             f.points[k % 2].total += change;
-            push<Real>(a, b, moveA.invInertia, moveB.invInertia, c.normalX, c.normalY, p.leverA, p.leverB, change);
+            push<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB, change);
         }
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
 }
 
+/// Arms in radii of gyration, and what is done with them.
 template <class Real>
-JET_INLINE void pull(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& invInertiaA,
-                     const Lanes<Real>& invInertiaB, const JointLanes<Real>& j, const Lanes<Real>& x,
-                     const Lanes<Real>& y)
-{
-    a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y;
-    a.omega -= invInertiaA * (j.armAX * y - j.armAY * x);
-    b.velocityX += b.invMass * x, b.velocityY += b.invMass * y;
-    b.omega += invInertiaB * (j.armBX * y - j.armBY * x);
-}
+struct Arms {
+    Lanes<Real> ax, ay, bx, by;
+
+    Arms(const JointLanes<Real>& j, const MoveLanes<Real>& moveA, const MoveLanes<Real>& moveB)
+        : ax(moveA.perGyration * j.armAX), ay(moveA.perGyration * j.armAY), bx(moveB.perGyration * j.armBX),
+          by(moveB.perGyration * j.armBY)
+    {
+    }
+    JET_INLINE void pull(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x, const Lanes<Real>& y) const
+    {
+        a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y, a.spin -= a.invMass * (ax * y - ay * x);
+        b.velocityX += b.invMass * x, b.velocityY += b.invMass * y, b.spin += b.invMass * (bx * y - by * x);
+    }
+};
 
 template <class Real>
 void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::size_t count)
@@ -389,8 +382,8 @@ void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::si
     for (std::size_t g = 0; g < count; ++g) {
         const JointLanes<Real>& j = groups[g];
         BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
-        const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
-        pull<Real>(a, b, moveA.invInertia, moveB.invInertia, j, j.impulseX, j.impulseY);
+        const Arms<Real> arms(j, moves(bodies, j.a), moves(bodies, j.b));
+        arms.pull(a, b, j.impulseX, j.impulseY);
         scatter(bodies, j.a, a);
         scatter(bodies, j.b, b);
     }
@@ -409,16 +402,18 @@ void solveJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t 
         JointLanes<Real>& j = groups[g];
         BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
-        const Lanes<Real> inwardA = least(half * a.omega * a.omega, mostInward);
-        const Lanes<Real> inwardB = least(half * b.omega * b.omega, mostInward);
+        const Arms<Real> arms(j, moveA, moveB);
+        const Lanes<Real> omegaA = moveA.perGyration * a.spin, omegaB = moveB.perGyration * b.spin;
+        const Lanes<Real> inwardA = least(half * omegaA * omegaA, mostInward);
+        const Lanes<Real> inwardB = least(half * omegaB * omegaB, mostInward);
         const Lanes<Real> biasX = rate * j.errorX + inwardA * j.armAX - inwardB * j.armBX;
         const Lanes<Real> biasY = rate * j.errorY + inwardA * j.armAY - inwardB * j.armBY;
-        const Lanes<Real> speedX = b.velocityX - a.velocityX - b.omega * j.armBY + a.omega * j.armAY + biasX;
-        const Lanes<Real> speedY = b.velocityY - a.velocityY + b.omega * j.armBX - a.omega * j.armAX + biasY;
+        const Lanes<Real> speedX = b.velocityX - a.velocityX - b.spin * arms.by + a.spin * arms.ay + biasX;
+        const Lanes<Real> speedY = b.velocityY - a.velocityY + b.spin * arms.bx - a.spin * arms.ax + biasY;
         const Lanes<Real> x = -massScale * (j.inverseXX * speedX + j.inverseXY * speedY) - impulseScale * j.impulseX;
         const Lanes<Real> y = -massScale * (j.inverseXY * speedX + j.inverseYY * speedY) - impulseScale * j.impulseY;
         j.impulseX += x, j.impulseY += y;
-        pull<Real>(a, b, moveA.invInertia, moveB.invInertia, j, x, y);
+        arms.pull(a, b, x, y);
         scatter(bodies, j.a, a);
         scatter(bodies, j.b, b);
     }
@@ -461,23 +456,25 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
         const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
         Lanes<Real> c, s;
-        directionOf<Real>(moveA.turn, c, s);
+        directionOf<Real>(moveA.sweep * moveA.perGyration, c, s);
         const Lanes<Real> ax = c * j.startAX - s * j.startAY, ay = s * j.startAX + c * j.startAY;
-        directionOf<Real>(moveB.turn, c, s);
+        directionOf<Real>(moveB.sweep * moveB.perGyration, c, s);
         const Lanes<Real> bx = c * j.startBX - s * j.startBY, by = s * j.startBX + c * j.startBY;
-        const Lanes<Real> warmA = moveA.invInertia * ((j.armAX - ax) * j.impulseY - (j.armAY - ay) * j.impulseX);
-        const Lanes<Real> warmB = moveB.invInertia * ((bx - j.armBX) * j.impulseY - (by - j.armBY) * j.impulseX);
+        const Lanes<Real> perA = a.invMass * moveA.perGyration, perB = b.invMass * moveB.perGyration;
+        const Lanes<Real> warmA = perA * ((j.armAX - ax) * j.impulseY - (j.armAY - ay) * j.impulseX);
+        const Lanes<Real> warmB = perB * ((bx - j.armBX) * j.impulseY - (by - j.armBY) * j.impulseX);
         for (int i = 0; i < kLanes<Real>; ++i) {
-            if (moveA.invInertia[i] != 0) pushes[j.a[i]].warmW += warmA[i];
-            if (moveB.invInertia[i] != 0) pushes[j.b[i]].warmW += warmB[i];
+            if (perA[i] != 0) pushes[j.a[i]].warmW += warmA[i];
+            if (perB[i] != 0) pushes[j.b[i]].warmW += warmB[i];
         }
         j.armAX = ax, j.armAY = ay, j.armBX = bx, j.armBY = by;
         j.errorX = j.startErrorX + (moveB.moveX - moveA.moveX) + (bx - j.startBX) - (ax - j.startAX);
         j.errorY = j.startErrorY + (moveB.moveY - moveA.moveY) + (by - j.startBY) - (ay - j.startAY);
         const Lanes<Real> mass = a.invMass + b.invMass;
-        const Lanes<Real> xx = mass + moveA.invInertia * ay * ay + moveB.invInertia * by * by;
-        const Lanes<Real> yy = mass + moveA.invInertia * ax * ax + moveB.invInertia * bx * bx;
-        const Lanes<Real> xy = -moveA.invInertia * ax * ay - moveB.invInertia * bx * by;
+        const Lanes<Real> inertiaA = perA * moveA.perGyration, inertiaB = perB * moveB.perGyration;  // inverse
+        const Lanes<Real> xx = mass + inertiaA * ay * ay + inertiaB * by * by;
+        const Lanes<Real> yy = mass + inertiaA * ax * ax + inertiaB * bx * bx;
+        const Lanes<Real> xy = -inertiaA * ax * ay - inertiaB * bx * by;
         const Lanes<Real> determinant = xx * yy - xy * xy;
         const Mask<Real> sound = determinant > zero;
         const Lanes<Real> inverse = choose<Real>(sound, one / choose<Real>(sound, determinant, one), zero);
@@ -491,11 +488,11 @@ void integrateVelocities(BodyState<Real>* bodies, BodyPush<Real>* pushes, std::s
     for (std::size_t i = 0; i < count; ++i) {
         BodyState<Real>& s = bodies[i];
         BodyPush<Real>& p = pushes[i];
-        p.warmX += s.velocityX - p.beforeX, p.warmY += s.velocityY - p.beforeY, p.warmW += s.omega - p.beforeW;
+        p.warmX += s.velocityX - p.beforeX, p.warmY += s.velocityY - p.beforeY, p.warmW += s.spin - p.beforeW;
         s.velocityX = p.linearKept * (s.velocityX + h * p.accelerationX) + p.warmX;
         s.velocityY = p.linearKept * (s.velocityY + h * p.accelerationY) + p.warmY;
-        s.omega = p.angularKept * (s.omega + h * p.accelerationW) + p.warmW;
-        p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.omega;
+        s.spin = p.angularKept * (s.spin + h * p.accelerationW) + p.warmW;
+        p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.spin;
     }
 }
 
@@ -504,7 +501,7 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 {
     for (std::size_t i = 0; i < count; ++i) {
         BodyState<Real>& s = bodies[i];
-        s.moveX += h * s.velocityX, s.moveY += h * s.velocityY, s.turn += h * s.omega;
+        s.moveX += h * s.velocityX, s.moveY += h * s.velocityY, s.sweep += h * s.spin;
     }
 }
 

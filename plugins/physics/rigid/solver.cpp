@@ -53,7 +53,7 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     const JointFrame f = frameOf(joint, state, bodies);
     const Index slotA = domains_.slotOf(joint.a), slotB = domains_.slotOf(joint.b);
     const BodyState<Real>&a = states_[slotA], &b = states_[slotB];
-    const bool movesA = a.invMass + a.invInertia > 0, movesB = b.invMass + b.invInertia > 0;
+    const bool movesA = a.invMass > 0, movesB = b.invMass > 0;
     if (!movesA && !movesB) return;
     const Node node = nodeOf(joint.a, movesA, joint.b, movesB);
     const std::size_t first = rows_[node].size();
@@ -79,9 +79,11 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     g.armBX[lane] = g.startBX[lane] = bx, g.armBY[lane] = g.startBY[lane] = by;
     g.errorX[lane] = g.startErrorX[lane] = static_cast<Real>(f.pointB.x() - f.pointA.x());
     g.errorY[lane] = g.startErrorY[lane] = static_cast<Real>(f.pointB.y() - f.pointA.y());
-    const Real xx = a.invMass + b.invMass + a.invInertia * ay * ay + b.invInertia * by * by;
-    const Real yy = a.invMass + b.invMass + a.invInertia * ax * ax + b.invInertia * bx * bx;
-    const Real xy = -a.invInertia * ax * ay - b.invInertia * bx * by;
+    const Real inertiaA = a.invMass * a.perGyration * a.perGyration;  // inverse
+    const Real inertiaB = b.invMass * b.perGyration * b.perGyration;
+    const Real xx = a.invMass + b.invMass + inertiaA * ay * ay + inertiaB * by * by;
+    const Real yy = a.invMass + b.invMass + inertiaA * ax * ax + inertiaB * bx * bx;
+    const Real xy = -inertiaA * ax * ay - inertiaB * bx * by;
     const Real determinant = xx * yy - xy * xy;
     const Real inverse = determinant > 0 ? 1 / determinant : 0;
     g.inverseXX[lane] = yy * inverse, g.inverseYY[lane] = xx * inverse, g.inverseXY[lane] = -xy * inverse;
@@ -244,13 +246,13 @@ template <class Real>
 void Solver<Real>::run()
 {
     // Warm starting is worked out once, on bodies at rest, and then kept up with by the body passes.
-    const auto moves = [](const BodyState<Real>& s) { return s.invMass > 0 || s.invInertia > 0; };
+    const auto moves = [](const BodyState<Real>& s) { return s.invMass > 0; };
     const auto halt = [&](Index first, Index count) {
         for (Index i = first; i < first + count; ++i) {
             BodyState<Real>& s = states_[i];
             BodyPush<Real>& p = pushes_[i];
-            p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.omega;
-            if (moves(s)) s.velocityX = s.velocityY = s.omega = 0;
+            p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.spin;
+            if (moves(s)) s.velocityX = s.velocityY = s.spin = 0;
         }
     };
     const auto goOn = [&](Index first, Index count) {
@@ -258,11 +260,11 @@ void Solver<Real>::run()
             BodyState<Real>& s = states_[i];
             BodyPush<Real>& p = pushes_[i];
             if (moves(s)) {
-                p.warmX = s.velocityX, p.warmY = s.velocityY, p.warmW = s.omega;
+                p.warmX = s.velocityX, p.warmY = s.velocityY, p.warmW = s.spin;
             } else {
                 p.warmX = p.warmY = p.warmW = 0;
             }
-            s.velocityX = p.beforeX, s.velocityY = p.beforeY, s.omega = p.beforeW;
+            s.velocityX = p.beforeX, s.velocityY = p.beforeY, s.spin = p.beforeW;
         }
     };
     pass(halt, [&](Node node) { warmNode(node); });
@@ -313,8 +315,7 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
     for (auto& flips : flips_) flips.clear();  // those of nodes too that an earlier division had
     eachNode([&](Node node) {
         eachColour(node, [&](Colour& c) {
-            kernels_->carryContacts(states_.data(), c.contacts.data(), c.frictions.data(), c.touches.data(),
-                                    c.contacts.size());
+            kernels_->carryContacts(c.contacts.data(), c.frictions.data(), c.touches.data(), c.contacts.size());
             const auto colour = static_cast<std::uint32_t>(&c - colours_.data());
             for (std::uint32_t group = 0; group < c.touches.size(); ++group)
                 if (c.touches[group] != c.touched[group]) flips_[node].push_back({colour, group});
@@ -336,8 +337,7 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
             Joint& joint = joints[row.joint];
             joint.impulse[row.slot] = static_cast<double>(row.impulse);
             joint.state.force += static_cast<double>(row.impulse) / shape_.h * Vec2(row.bx, row.by);
-            if (row.bx == 0 && row.by == 0)
-                joint.state.torque += static_cast<double>(row.impulse * row.angularB) / shape_.h;
+            if (row.bx == 0 && row.by == 0) joint.state.torque += row.torqueOfB() / shape_.h;
         }
 }
 

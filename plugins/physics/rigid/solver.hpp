@@ -200,7 +200,7 @@ private:
         for (int k = 0; k < 2; ++k) {
             auto& p = g.points[k];
             auto& q = f.points[k];
-            value(p.leverA), value(p.leverB), value(p.separation), value(p.mass), value(p.impulse);
+            value(p.leverA), value(p.leverB), value(p.separation), value(p.now), value(p.mass), value(p.impulse);
             value(q.leverA), value(q.leverB), value(q.mass), value(q.impulse), value(q.total);
         }
         if (!bounces_) return;

@@ -7,6 +7,9 @@
 // effective mass is 1 / (mA + mB + iA (rA × n)² + iB (rB × n)²), with inverse masses m and inverse moments i. So a
 // point needs two levers, not four coordinates, and no rotation during the substeps.
 //
+// Turning is measured at the radius of gyration k, where i = m / k²: with the spin k w in place of w, the sweep k a of
+// a and levers divided by k, one inverse mass is all that an impulse needs of a body, beside its velocity.
+//
 // Joints swing: their arms turn with the bodies, once a substep. A push meets the error as it will be at the end of the
 // substep, which the arms' turning on adds (h/2) (wA² rA - wB² rB) a second to; a relax pass then meets the arms as
 // they have become. Both act along the arms of the same moment, so that what swings keeps its speed (the scheme is that
@@ -21,17 +24,20 @@ namespace jet::physics {
 template <class Real>
 struct alignas(8 * sizeof(Real)) BodyState {
     Real velocityX = 0, velocityY = 0;  // units / s
-    Real omega = 0;                     // rad / s
+    Real spin = 0;                      // units / s, at the radius of gyration
     Real invMass = 0;                   // 1 / mass
     Real moveX = 0, moveY = 0;          // units since the start of the step
-    Real turn = 0;                      // radians since the start of the step
-    Real invInertia = 0;                // 1 / (mass units²)
+    Real sweep = 0;                     // units since the start of the step, at the radius of gyration
+    Real perGyration = 0;               // 1 / that radius; 0: never turns
+
+    Real omega() const { return spin * perGyration; }  // rad / s
+    Real turn() const { return sweep * perGyration; }  // radians since the start of the step
 };
 
 /// What the body passes of a substep need beside the state.
 template <class Real>
 struct BodyPush {
-    Real accelerationX = 0, accelerationY = 0, accelerationW = 0;  // of gravity, forces, torques
+    Real accelerationX = 0, accelerationY = 0, accelerationW = 0;  // of gravity, forces, torques (of the spin)
     Real linearKept = 1, angularKept = 1;                          // velocity left by damping after a substep
     // Change of velocity by all accumulated impulses: warm starting without visiting the constraints again.
     Real warmX = 0, warmY = 0, warmW = 0;
@@ -44,8 +50,9 @@ struct alignas(32) ContactLanes {
     Lanes<Real> normalX, normalY;                   // from A to B
     Lanes<Real> mostPush;                           // units / s that overlap is pushed out with at most
     struct Point {
-        Lanes<Real> leverA, leverB;  // r × n
+        Lanes<Real> leverA, leverB;  // r × n, in radii of gyration
         Lanes<Real> separation;      // at the start of the step, plus slop
+        Lanes<Real> now;             // the same after the last move
         Lanes<Real> mass;            // 0: no such point
         Lanes<Real> impulse;         // accumulated, of a substep
     } points[2];
@@ -56,7 +63,7 @@ template <class Real>
 struct alignas(32) FrictionLanes {
     Lanes<Real> friction;
     struct Point {
-        Lanes<Real> leverA, leverB;  // r × tangent
+        Lanes<Real> leverA, leverB;  // r × tangent, in radii of gyration
         Lanes<Real> mass;
         Lanes<Real> impulse;
         Lanes<Real> total;  // along the normal, of the step
@@ -99,7 +106,7 @@ struct StepConstants {
 
 template <class Real>
 struct Kernels {
-    /// Takes the pushing velocity back out, of normals alone.
+    /// Looks how far apart the bodies are after their move, and takes the pushing velocity back out, of normals alone.
     void (*calmContacts)(BodyState<Real>*, ContactLanes<Real>*, std::size_t, const StepConstants<Real>&);
     /// Adds the accumulated impulses of contacts to the bodies' velocities.
     void (*warmContacts)(BodyState<Real>*, const ContactLanes<Real>*, const FrictionLanes<Real>*, std::size_t);
@@ -113,8 +120,7 @@ struct Kernels {
     void (*approachContacts)(const BodyState<Real>*, const ContactLanes<Real>*, BounceLanes<Real>*, std::size_t);
     void (*scaleContacts)(ContactLanes<Real>*, FrictionLanes<Real>*, std::size_t, Real by);
     /// Moves the separations on to the end of the step, and sets a bit for each lane that pushed.
-    void (*carryContacts)(const BodyState<Real>*, ContactLanes<Real>*, const FrictionLanes<Real>*, std::uint32_t* bits,
-                          std::size_t);
+    void (*carryContacts)(ContactLanes<Real>*, const FrictionLanes<Real>*, std::uint32_t* bits, std::size_t);
     void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, const BounceLanes<Real>*,
                            std::size_t, const StepConstants<Real>&);
     void (*solveJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&, bool push);

@@ -70,6 +70,7 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
     body.moves = state.nodes.invMass[node] > 0;
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
+    body.gyration = std::sqrt(state.bodies[handle].second);
     body.setOneSided(def.common.oneSided);
     const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
@@ -212,9 +213,11 @@ void RigidStage::load(Solver<Real>& solver, const State& state)
         const Index node = body.node;
         s.velocityX = static_cast<Real>(nodes.velocity[node].x()),
         s.velocityY = static_cast<Real>(nodes.velocity[node].y());
-        s.omega = static_cast<Real>(nodes.omega[node]);
-        s.invMass = static_cast<Real>(nodes.invMass[node]), s.invInertia = static_cast<Real>(nodes.invInertia[node]);
-        s.moveX = s.moveY = s.turn = 0;
+        s.spin = static_cast<Real>(nodes.omega[node] * body.gyration);
+        s.invMass = static_cast<Real>(nodes.invMass[node]);
+        const bool turns = nodes.invMass[node] == 0 || nodes.invInertia[node] > 0;
+        s.perGyration = turns ? 1 / static_cast<Real>(body.gyration) : 0;
+        s.moveX = s.moveY = s.sweep = 0;
         if (!body.moves && solver.isAstray(i)) astray = true;
     };
     solver.divide(collider_, state, joints_, false);
@@ -274,7 +277,8 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
         const Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
-        force.accelerationW = static_cast<Real>(nodes.invInertia[body.node] * nodes.torque[body.node]);
+        force.accelerationW =
+            static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
         force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
     });
     addJoints(solver, state);
@@ -298,7 +302,7 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
     if (fast) {
         moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
         solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
-            moves_[i] = moveOf(s), turns_[i] = static_cast<double>(s.turn);
+            moves_[i] = moveOf(s), turns_[i] = static_cast<double>(s.sweep) / collider_.bodies()[i].gyration;
         });
         collider_.stopTunnelling(allowed_, moves_, turns_, dt);
     }
@@ -307,11 +311,11 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         if ((!body.moves && !body.kinematic) || body.asleep) return;
         const double part = fast ? static_cast<double>(allowed_[i]) : 1;
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
-        nodes.omega[body.node] = static_cast<double>(s.omega);
+        nodes.omega[body.node] = static_cast<double>(s.spin) / body.gyration;
         limitSpeed(nodes.velocity[body.node], nodes.omega[body.node]);
         const Vec2 move = part * moveOf(s);
         nodes.position[body.node] += move;
-        const double turn = part * static_cast<double>(s.turn);
+        const double turn = part * static_cast<double>(s.sweep) / body.gyration;
         collider_.travelled(i, part * moveOf(s).norm() + std::abs(turn) * static_cast<double>(body.reach));
         if (turn == 0) return;
         nodes.angle[body.node] += turn;
@@ -361,14 +365,16 @@ void RigidStage::exchange(State& state, bool store)
     Nodes& nodes = state.nodes;
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
         const Index node = collider_.bodies()[i].node;
+        const double gyration = collider_.bodies()[i].gyration;
         BodyState<double>& s = double_.body(i);
         if (store) {
-            if (s.invMass > 0) nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega[node] = s.omega;
+            if (s.invMass > 0) nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega[node] = s.spin / gyration;
             continue;
         }
-        s.velocityX = nodes.velocity[node].x(), s.velocityY = nodes.velocity[node].y(), s.omega = nodes.omega[node];
+        s.velocityX = nodes.velocity[node].x(), s.velocityY = nodes.velocity[node].y();
+        s.spin = nodes.omega[node] * gyration;
         const Vec2 move = nodes.position[node] - start_[i];
-        s.moveX = move.x(), s.moveY = move.y(), s.turn = nodes.angle[node] - startAngle_[i];
+        s.moveX = move.x(), s.moveY = move.y(), s.sweep = (nodes.angle[node] - startAngle_[i]) * gyration;
     }
 }
 

@@ -138,7 +138,7 @@ void Joints::give(State& state, const Hold& hold, const Pose& before, const Body
 {
     if (hold.background() || before.invMass == 0) return;
     const Vec2 change = Vec2(after.velocityX, after.velocityY) - before.velocity;
-    const double turn = after.omega - before.omega;
+    const double turn = after.perGyration > 0 ? after.omega() - before.omega : 0;
     for (const Index n : hold.nodes) {
         state.nodes.velocity[n] += change;
         if (hold.rigid) {
@@ -171,8 +171,10 @@ void Joints::solve(State& state, Held& held, bool push)
     const JointFrame f = frame(held, a, b);
     ends_.assign(3, BodyState<double>{});
     for (const auto& [pose, end] : {std::pair(&a, &ends_[1]), std::pair(&b, &ends_[2])}) {
-        end->velocityX = pose->velocity.x(), end->velocityY = pose->velocity.y(), end->omega = pose->omega;
-        end->invMass = pose->invMass, end->invInertia = pose->invInertia;
+        end->velocityX = pose->velocity.x(), end->velocityY = pose->velocity.y();
+        end->invMass = pose->invMass;
+        end->perGyration = pose->invMass > 0 ? std::sqrt(pose->invInertia / pose->invMass) : 1;
+        end->spin = end->perGyration > 0 ? pose->omega / end->perGyration : 0;
     }
     rows_.clear();
     addRows(joint, 0, f, ends_.data(), joint.a, joint.b, h_, rows_);
@@ -182,10 +184,11 @@ void Joints::solve(State& state, Held& held, bool push)
             const Vec2 along = axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
             JointRow<double> row;
             row.a = joint.a, row.b = joint.b, row.slot = static_cast<Index>(axis);
-            row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(f.armA, along);
-            row.bx = along.x(), row.by = along.y(), row.angularB = cross(f.armB, along);
-            const double give = a.invMass + b.invMass + a.invInertia * row.angularA * row.angularA +
-                                b.invInertia * row.angularB * row.angularB;
+            const BodyState<double>&endA = ends_[joint.a], &endB = ends_[joint.b];
+            row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(f.armA, along) * endA.perGyration;
+            row.bx = along.x(), row.by = along.y(), row.angularB = cross(f.armB, along) * endB.perGyration;
+            const double give =
+                endA.invMass * (1 + row.angularA * row.angularA) + endB.invMass * (1 + row.angularB * row.angularB);
             row.mass = give > 0 ? 1 / give : 0;
             row.error = apart[axis];
             row.impulse = joint.impulse[axis];
@@ -204,7 +207,7 @@ void Joints::solve(State& state, Held& held, bool push)
         joint.impulse[row.slot] = row.impulse;
         if (push) continue;
         held.pushed += row.impulse * Vec2(row.bx, row.by);
-        if (row.bx == 0 && row.by == 0) held.turned += row.impulse * row.angularB;
+        if (row.bx == 0 && row.by == 0) held.turned += row.torqueOfB();
     }
 }
 
