@@ -37,7 +37,7 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
             if (!springs.isWide(handle))
                 springs.kernels().accelerate(nodes.velocity[first].data(),
                                              anyForces ? nodes.force[first].data() : nullptr, &nodes.invMass[first],
-                                             body.nodes.count, {h, gravity.x(), gravity.y(), linear}, nullptr);
+                                             body.nodes.count, {h, gravity.x(), gravity.y(), linear});
             if (angular != 1 && !body.fixed) dampTurning(nodes, body, angular);
             continue;
         }
@@ -60,14 +60,17 @@ void limitSpeed(Vec2& velocity, double& omega)
     if (!(std::abs(omega) <= kMostTurningRate)) omega = std::isnan(omega) ? 0 : std::copysign(kMostTurningRate, omega);
 }
 
-void integratePositions(State& state, const soft::Kernels& kernels, double h)
+void integratePositions(State& state, const SoftSprings& springs, double h)
 {
     Nodes& nodes = state.nodes;
-    for (const BodyRecord& body : state.bodies) {
+    for (Index handle = 0; handle < state.bodies.size(); ++handle) {
+        const BodyRecord& body = state.bodies[handle];
         const Index first = body.nodes.first;
         if (body.nodes.count == 0 || body.fixed) continue;
         if (!body.rigid) {
-            kernels.advance(nodes.position[first].data(), nodes.velocity[first].data(), body.nodes.count, h);
+            const Vec2 drift = springs.drift(handle);
+            springs.kernels().advance(nodes.position[first].data(), nodes.velocity[first].data(), body.nodes.count, h,
+                                      drift.x(), drift.y());
             continue;
         }
         if (nodes.invMass[first] == 0) continue;

@@ -7,6 +7,7 @@ namespace jet::physics {
 
 /// Gravity, springs, forces, torques and damping over h. Forces and torques are used up; `pushed`: are there any?
 void integrateVelocities(State&, const WorldSettings&, SoftSprings&, double h, bool pushed);
-void integratePositions(State&, const soft::Kernels&, double h);
+/// Adds what the springs leave to be added to velocities, too.
+void integratePositions(State&, const SoftSprings&, double h);
 
 }  // namespace jet::physics

@@ -36,6 +36,8 @@ double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(a
 // inside the step's reserve; beyond it the torque is held back.
 constexpr double kStiffeningReserve = 2.0;
 
+std::size_t strideOf(std::size_t room) { return room + soft::kLanes; }
+
 constexpr double kCrush = 0.4;  // substeps: damping of crushed springs by their stiffness
 // The kernels watch for springs longer than this part of what they hold; their lengths are single.
 constexpr double kTearWatch = 0.9999;
@@ -106,6 +108,7 @@ void SoftSprings::arrange(const State& state)
 {
     if (arranged_) return;
     arranged_ = true;
+    drift_.assign(state.bodies.size(), Vec2(0, 0));
     std::vector<soft::Candidate> candidates;
     for (Index body = 0; body < meshes_.size(); ++body) {
         const Mesh& mesh = meshes_[body];
@@ -119,12 +122,11 @@ void SoftSprings::arrange(const State& state)
     std::size_t room = 0, most = 0;
     for (Index k = 0; k < batches_.size(); ++k) {
         soft::Batch& batch = batches_[k];
-        batch.coefficients.assign(batch.blocks.count() * 3 * soft::kLanes, 0);
+        batch.rest.assign(batch.blocks.count() * soft::kLanes, 0);
         batch.tear.clear();
         for (Index lane = 0; lane < batch.bodies.size(); ++lane)
             meshes_[batch.bodies[lane]].batch = k, meshes_[batch.bodies[lane]].lane = lane;
-        const std::size_t size = batch.planeSize();
-        room = std::max(room, 6 * (size + 16) + (batch.gathers() ? 4 * size : 0) + 16);
+        room = std::max(room, soft::Planes::kCount * strideOf(batch.room()) + (batch.gathers() ? 4 * batch.room() : 0));
         most = std::max(most, batch.blocks.count());
     }
     planes_.resize(room);
@@ -159,7 +161,7 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
 {
     arrange(state);
     crush_ = plain ? 0 : kCrush * h;
-    for (soft::Batch& batch : batches_) watchTears(batch);
+    for (soft::Batch& batch : batches_) watchTears(batch), batch.part();
     for (Mesh& mesh : meshes_) {
         stiffness_.resize(mesh.springs.count), damping_.resize(mesh.springs.count);
         for (Index i = 0; i < mesh.springs.count; ++i)
@@ -168,6 +170,7 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
         if (!plain) prepareMesh(state, bounds, mesh, h);
         fill(mesh);
     }
+    for (soft::Batch& batch : batches_) batch.share();
     for (std::vector<double>* scratch : {&stiffness_, &damping_, &load_}) *scratch = std::vector<double>();
     if (plain) return;
     for (Angular& spring : angular_) {
@@ -206,9 +209,9 @@ void SoftSprings::fill(Mesh& mesh)
     for (Index k = 0; k < mesh.springs.count; ++k) {
         const Index i = mesh.springs.first + k;
         const std::uint32_t seat = batch.seat(mesh.lane, k);
-        float* at = &batch.coefficients[std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes];
-        at[soft::kLanes] = alive_[i] ? static_cast<float>(stiffness_[k]) : 0;
-        at[2 * soft::kLanes] = alive_[i] ? static_cast<float>(damping_[k]) : 0;
+        float* at = batch.spring(seat);
+        at[0] = alive_[i] ? static_cast<float>(stiffness_[k]) : 0;
+        at[soft::kLanes] = alive_[i] ? static_cast<float>(damping_[k]) : 0;
         if (batch.tear.empty()) continue;
         const double longest = tearLength(mesh, i);
         batch.tear[seat] =
@@ -221,11 +224,9 @@ void SoftSprings::fillRests(const Mesh& mesh)
 {
     if (!mesh.wide) return;
     soft::Batch& batch = batches_[mesh.batch];
-    for (Index k = 0; k < mesh.springs.count; ++k) {
-        const std::uint32_t seat = batch.seat(mesh.lane, k);
-        batch.coefficients[std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes] =
+    for (Index k = 0; k < mesh.springs.count; ++k)
+        batch.rest[batch.seat(mesh.lane, k)] =
             static_cast<float>(rest_[mesh.springs.first + k] + static_cast<double>(mesh.bias[k]));
-    }
 }
 
 void SoftSprings::addForces(State& state)
@@ -234,80 +235,93 @@ void SoftSprings::addForces(State& state)
         if (!mesh.wide) pullOneByOne(state, mesh);
 }
 
-/// Where the batch's particles lie, each plane at a boundary of 32 bytes.
 soft::Planes SoftSprings::planes(const soft::Batch& batch)
 {
-    const std::size_t size = batch.planeSize(), step = (size + 8 + 7) & ~std::size_t{7};
-    void* start = planes_.data();
-    std::size_t room = planes_.size() * sizeof(float);
-    auto* at = static_cast<float*>(std::align(32, step * sizeof(float), start, room));
-    return {at,
-            at + step,
-            at + 2 * step,
-            at + 3 * step,
-            at + 4 * step,
-            at + 5 * step,
-            batch.gathers() ? at + 6 * step : nullptr};
+    const std::size_t room = batch.room(), stride = strideOf(room);
+    return {planes_.data(), stride, batch.gathers() ? planes_.data() + soft::Planes::kCount * stride : nullptr, room};
 }
 
 void SoftSprings::accelerate(State& state, double h, const Vec2& gravity, double kept, bool pushed)
 {
-    Nodes& nodes = state.nodes;
-    double *velocity = nodes.velocity.data()->data(), *force = pushed ? nodes.force.values().data()->data() : nullptr;
+    drift_.resize(state.bodies.size(), Vec2(0, 0));
+    double* force = pushed ? state.nodes.force.values().data()->data() : nullptr;
     for (soft::Batch& batch : batches_) {
-        std::array<soft::Frame, soft::kLanes> frames;
-        std::array<soft::VelocityStep, soft::kLanes> steps;
-        for (Index lane = 0; lane < soft::kLanes; ++lane) {
-            const Index first = meshes_[bodyOf(batch, lane)].nodes.first;
-            const Vec2 &at = nodes.position[first], &moving = nodes.velocity[first];
-            frames[lane] = {at.x(), at.y(), moving.x(), moving.y()};
-        }
-        const soft::Planes planes = this->planes(batch);
-        pull(state, batch, frames, planes);
-        std::array<double, 2 * std::size_t{soft::kLanes}> left{};
         if (batch.alike()) {
-            kernels_->sumAlike(planes, batch.rows, left.data());
+            accelerateAlike(state, batch, h, gravity, kept, force);
         } else {
-            std::array<double, 2> sums{};
-            kernels_->sum(planes, batch.rows, sums.data());
-            left[0] = sums[0], left[soft::kLanes] = sums[1];
-        }
-        // What rounding leaves of forces that sum to nothing is taken out of the whole body's acceleration.
-        for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
-            const BodyRecord& body = state.bodies[batch.bodies[lane]];
-            Vec2 net = Vec2(left[lane], left[soft::kLanes + lane]) / body.mass;
-            if (!(net.squaredNorm() < 1e300)) net = Vec2(0, 0);
-            const Vec2 fall = body.gravityScale * gravity - net;
-            steps[lane] = {h, fall.x(), fall.y(), kept};
-        }
-        if (batch.alike()) {
-            kernels_->accelerateAlike(velocity, force, nodes.invMass.data(), batch.nodeAt.data(), batch.rows,
-                                      batch.bodies.size(), steps.data(), planes);
-        } else {
-            const std::size_t first = meshes_[batch.bodies[0]].nodes.first;
-            kernels_->accelerate(velocity + 2 * first, force ? force + 2 * first : nullptr, &nodes.invMass[first],
-                                 batch.rows, steps[0], &planes);
+            accelerateAlone(state, batch, {h, gravity.x(), gravity.y(), kept}, force);
         }
     }
 }
 
-void SoftSprings::pull(State& state, soft::Batch& batch, std::span<const soft::Frame> frames,
-                       const soft::Planes& planes)
+soft::Frame SoftSprings::frameOf(const State& state, Index body) const
 {
-    const double *position = state.nodes.position.data()->data(), *velocity = state.nodes.velocity.data()->data();
-    if (batch.alike()) {
-        kernels_->relateAlike(position, velocity, batch.nodeAt.data(), batch.rows, frames.data(), planes);
-    } else {
-        const std::size_t first = 2 * std::size_t{meshes_[batch.bodies[0]].nodes.first};
-        kernels_->relate(position + first, velocity + first, batch.rows, frames[0], planes);
-    }
+    const Index first = meshes_[body].nodes.first;
+    const Vec2 &at = state.nodes.position[first], &moving = state.nodes.velocity[first];
+    return {at.x(), at.y(), moving.x(), moving.y()};
+}
+
+soft::SpringBlocks SoftSprings::springsOf(const soft::Batch& batch)
+{
     const soft::Blocks& blocks = batch.blocks;
-    const std::size_t torn = kernels_->pull({blocks.runs.data(), blocks.runs.size(), blocks.ends.data(),
-                                             blocks.ends.size() / (2 * soft::kLanes), batch.coefficients.data(),
-                                             batch.tear.empty() ? nullptr : batch.tear.data(), tornBlocks_.data(),
-                                             static_cast<float>(crush_)},
-                                            planes);
-    if (torn > 0) tearIn(state, batch, {tornBlocks_.data(), torn});
+    return {blocks.runs.data(), blocks.runs.size(),
+            blocks.ends.data(), blocks.ends.size() / (2 * soft::kLanes),
+            batch.rest.data(),  batch.kind.data(),
+            batch.kinds.data(), batch.tear.empty() ? nullptr : batch.tear.data(),
+            tornBlocks_.data(), static_cast<float>(crush_),
+            blocks.reach};
+}
+
+namespace {
+
+/// What rounding leaves of forces that sum to nothing is taken out of the whole body's acceleration.
+Vec2 leftOver(double x, double y, double mass)
+{
+    const Vec2 net = Vec2(x, y) / mass;
+    return net.squaredNorm() < 1e300 ? net : Vec2(0, 0);
+}
+
+}  // namespace
+
+void SoftSprings::accelerateAlone(State& state, soft::Batch& batch, soft::VelocityStep step, double* force)
+{
+    Nodes& nodes = state.nodes;
+    const Index handle = batch.bodies.front();
+    const BodyRecord& body = state.bodies[handle];
+    const std::size_t first = body.nodes.first;
+    step.gravityX *= body.gravityScale, step.gravityY *= body.gravityScale;
+    const soft::Swing swing =
+        kernels_->swing(springsOf(batch),
+                        {nodes.position[first].data(), nodes.velocity[first].data(),
+                         force ? force + 2 * first : nullptr, &nodes.invMass[first], body.nodes.count},
+                        frameOf(state, handle), step, planes(batch));
+    if (swing.torn > 0) tearIn(state, batch, swing.torn);
+    // Taken out as the body moves on. Pins take it up where there are any.
+    drift_[handle] = swing.pinned ? Vec2(0, 0) : Vec2(-step.kept * step.h * leftOver(swing.x, swing.y, body.mass));
+}
+
+void SoftSprings::accelerateAlike(State& state, soft::Batch& batch, double h, const Vec2& gravity, double kept,
+                                  double* force)
+{
+    Nodes& nodes = state.nodes;
+    double* velocity = nodes.velocity.data()->data();
+    std::array<soft::Frame, soft::kLanes> frames;
+    for (Index lane = 0; lane < soft::kLanes; ++lane) frames[lane] = frameOf(state, bodyOf(batch, lane));
+    const soft::Planes planes = this->planes(batch);
+    kernels_->relateAlike(nodes.position.data()->data(), velocity, batch.nodeAt.data(), batch.rows, frames.data(),
+                          planes);
+    const std::size_t torn = kernels_->pull(springsOf(batch), planes);
+    if (torn > 0) tearIn(state, batch, torn);
+    std::array<double, 2 * std::size_t{soft::kLanes}> left{};
+    kernels_->sumAlike(planes, batch.rows, left.data());
+    std::array<soft::VelocityStep, soft::kLanes> steps;
+    for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
+        const BodyRecord& body = state.bodies[batch.bodies[lane]];
+        const Vec2 fall = body.gravityScale * gravity - leftOver(left[lane], left[soft::kLanes + lane], body.mass);
+        steps[lane] = {h, fall.x(), fall.y(), kept};
+    }
+    kernels_->accelerateAlike(velocity, force, nodes.invMass.data(), batch.nodeAt.data(), batch.rows,
+                              batch.bodies.size(), steps.data(), planes);
 }
 
 /// Lanes without a body stand for the first.
@@ -316,10 +330,12 @@ Index SoftSprings::bodyOf(const soft::Batch& batch, Index lane) const
     return batch.bodies[lane < batch.bodies.size() ? lane : 0];
 }
 
-/// The kernels only warn, of blocks in ascending order: whether a spring of one is too long is decided in double, so
-/// that it tears at exactly its length. Its last force, of a length that differs by rounding, still acts.
-void SoftSprings::tearIn(const State& state, const soft::Batch& batch, std::span<const std::uint32_t> blocks)
+/// The kernels only warn, of the first `count` of tornBlocks_: whether a spring of one is too long is decided in
+/// double, so that it tears at exactly its length. Its last force, of a length that differs by rounding, still acts.
+void SoftSprings::tearIn(const State& state, const soft::Batch& batch, std::size_t count)
 {
+    const std::span<std::uint32_t> blocks{tornBlocks_.data(), count};
+    std::sort(blocks.begin(), blocks.end());
     for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
         Mesh& mesh = meshes_[batch.bodies[lane]];
         for (Index k = 0; k < mesh.springs.count; ++k) {
@@ -340,10 +356,7 @@ void SoftSprings::tear(Mesh& mesh, Index spring)
     anyTorn_ = true;
     if (!mesh.wide) return;
     soft::Batch& batch = batches_[mesh.batch];
-    const std::uint32_t seat = batch.seat(mesh.lane, spring - mesh.springs.first);
-    float* at = &batch.coefficients[std::size_t{seat / soft::kLanes} * 3 * soft::kLanes + seat % soft::kLanes];
-    at[soft::kLanes] = at[2 * soft::kLanes] = 0;
-    batch.tear[seat] = std::numeric_limits<float>::max();
+    batch.cut(batch.seat(mesh.lane, spring - mesh.springs.first));
 }
 
 void SoftSprings::pullOneByOne(State& state, Mesh& mesh)

@@ -32,6 +32,8 @@ public:
     void addTo(StiffnessBounds&, const State&, bool loose);
     /// Substeps a second at which the body's springs may act as they are.
     double stableRate(const StiffnessBounds&, const BodyRecord&, Index body) const;
+    /// Substeps a second at which they swing in time.
+    double swingRate(const StiffnessBounds&, const BodyRecord&, Index body) const;
     /// Fixes what depends on the length of a substep.
     /// `plain`: stiffness and damping as they are, whatever comes of it.
     void prepare(const State&, const StiffnessBounds&, double h, bool plain = false);
@@ -54,6 +56,8 @@ public:
     bool anyOneByOne() const { return anyOneByOne_; }
     /// Is the body one of those that accelerate() moves?
     bool isWide(Index body) const { return meshes_[body].wide; }
+    /// What accelerate() leaves to be added to the velocities of a body as it moves on.
+    Vec2 drift(Index body) const { return body < drift_.size() ? drift_[body] : Vec2(0, 0); }
     /// Changes velocities by the impulses of angular springs over h. `backwards` alternates, so that no end of the list
     /// is favoured.
     void applyAngular(State&, double h, bool backwards);
@@ -112,7 +116,8 @@ private:
         bool tears = false;
         bool uniform = false;  // ks, kd and tearRatio stand for those of all its springs
         double ks = 0, kd = 0, tearRatio = 0;
-        double provenRate = 0;  // substeps / s that were proven to suffice, besides the bounds; 0: none
+        double fastestAtRest = 0;  // rad / s, of vast bodies; 0: not known
+        double provenRate = 0;     // substeps / s that were proven to suffice, besides the bounds; 0: none
     };
 
     void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf);
@@ -127,6 +132,7 @@ private:
     Index kindLike(const SpringDef&);
     void addTo(StiffnessBounds&, const State&, const Mesh&) const;
     void weigh(StiffnessBounds&, const State&, const Mesh&);
+    double fastestAtRest(const StiffnessBounds&, const State&, const Mesh&, Index body);
     double provenRate(const State&, const Mesh&, double rate);
     bool isStable(const State&, const Mesh&, double h);
     void arrange(const State&);
@@ -135,10 +141,13 @@ private:
     void measureBias(const State&, Mesh&);
     void fill(Mesh&);
     void fillRests(const Mesh&);
-    void pull(State&, soft::Batch&, std::span<const soft::Frame> frames, const soft::Planes&);
+    void accelerateAlone(State&, soft::Batch&, soft::VelocityStep, double* force);
+    void accelerateAlike(State&, soft::Batch&, double h, const Vec2& gravity, double kept, double* force);
+    soft::Frame frameOf(const State&, Index body) const;
+    soft::SpringBlocks springsOf(const soft::Batch&);
     soft::Planes planes(const soft::Batch&);
     void pullOneByOne(State&, Mesh&);
-    void tearIn(const State&, const soft::Batch&, std::span<const std::uint32_t> blocks);
+    void tearIn(const State&, const soft::Batch&, std::size_t count);
     void tear(Mesh&, Index spring);
     Index bodyOf(const soft::Batch&, Index lane) const;
     void applyAngularSpring(State&, Angular&, double h);
@@ -159,6 +168,7 @@ private:
     std::vector<Angular> angular_;
     double crush_ = 0;  // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
     // Scratch of the body or batch at work; that of preparing is given back.
+    std::vector<Vec2> drift_;  // [bodies] units / s, of the substep
     std::vector<float> planes_;
     std::vector<std::uint32_t> tornBlocks_;
     std::vector<double> stiffness_, damping_, load_, weight_, matrix_;

@@ -85,6 +85,41 @@ bool SoftSprings::isStable(const State& state, const Mesh& mesh, double h)
     return true;
 }
 
+/// No motion about the shape at rest is faster, in rad / s.
+double SoftSprings::fastestAtRest(const StiffnessBounds& bounds, const State& state, const Mesh& mesh, Index body)
+{
+    constexpr std::size_t kOfNode = 3;  // xx, xy, yy of sum ks d dᵀ / m
+    const std::vector<Vec2>& rest = state.bodies[body].soft->restArms;
+    load_.assign(kOfNode * mesh.nodes.count, 0.0);
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+        if (a_[i] == b_[i]) continue;
+        const Vec2 along = rest[b_[i] - mesh.nodes.first] - rest[a_[i] - mesh.nodes.first];
+        const double squared = along.squaredNorm();
+        if (!(squared > 0)) return std::numeric_limits<double>::infinity();
+        const auto act = [&](Index node, Index other) {
+            const double rate = stiffnessOf(mesh, i) * bounds.part(node, other) * state.nodes.invMass[node] / squared;
+            double* sum = &load_[kOfNode * (node - mesh.nodes.first)];
+            sum[0] += rate * along.x() * along.x();
+            sum[1] += rate * along.x() * along.y();
+            sum[2] += rate * along.y() * along.y();
+        };
+        act(a_[i], b_[i]), act(b_[i], a_[i]);
+    }
+    double most = 0;
+    for (std::size_t k = 0; k < load_.size(); k += kOfNode) {
+        const double half = 0.5 * (load_[k] - load_[k + 2]);
+        most = std::max(most, 0.5 * (load_[k] + load_[k + 2]) + std::sqrt(half * half + load_[k + 1] * load_[k + 1]));
+    }
+    return std::sqrt(2 * most);
+}
+
+double SoftSprings::swingRate(const StiffnessBounds& bounds, const BodyRecord& body, Index handle) const
+{
+    const double rate = bounds.fastest(body.nodes) / phaseOf(body.nodes);
+    const double atRest = handle < meshes_.size() ? meshes_[handle].fastestAtRest : 0;
+    return atRest > 0 ? std::min(rate, atRest / kVastPhase) : rate;
+}
+
 double SoftSprings::stableRate(const StiffnessBounds& bounds, const BodyRecord& body, Index handle) const
 {
     const double proven = handle < meshes_.size() ? meshes_[handle].provenRate : 0;
@@ -96,10 +131,12 @@ double SoftSprings::stableRate(const StiffnessBounds& bounds, const BodyRecord& 
 /// with weights is exact, and one softened to it would ring on.
 void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
 {
-    for (Mesh& mesh : meshes_) {
+    for (Index body = 0; body < meshes_.size(); ++body) {
+        Mesh& mesh = meshes_[body];
         const bool weighed = loose && angular_.empty() && isLarge(mesh.nodes);
         if (weighed) weigh(bounds, state, mesh);
         addTo(bounds, state, mesh);
+        mesh.fastestAtRest = weighed && isVast(mesh.nodes) ? fastestAtRest(bounds, state, mesh, body) : 0;
         const double rate = bounds.stableRate(mesh.nodes);
         mesh.provenRate = weighed && rate <= kHighestRate ? provenRate(state, mesh, rate) : 0;
         if (!weighed || rate <= kHighestRate) continue;

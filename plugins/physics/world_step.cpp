@@ -124,7 +124,7 @@ void World::prepareStiffness()
     for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
         const BodyRecord& body = state_.bodies[handle];
         const double stable = springs_.stableRate(bounds_, body, handle);
-        rate_ = std::max({rate_, stable, bounds_.fastest(body.nodes) / phaseOf(body)});
+        rate_ = std::max({rate_, stable, springs_.swingRate(bounds_, body, handle)});
     }
     preparedFor_ = 0;
 }
@@ -159,7 +159,7 @@ void World::substep(double h, int index, int count)
     solver.prepare();
     solver.solve();
     softContacts_.push(state_);
-    integratePositions(state_, springs_.kernels(), h);
+    integratePositions(state_, springs_, h);
     moveKinematic(h);
     rigid_.relax(state_);
     softJoints_.relax(state_);

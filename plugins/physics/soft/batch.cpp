@@ -1,6 +1,9 @@
 #include "batch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -9,6 +12,15 @@
 namespace jet::physics::soft {
 
 namespace {
+
+constexpr std::size_t kOfKind = 2 * std::size_t{kLanes};  // numbers a kind has
+
+std::uint32_t bitsOf(float value)
+{
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
 
 /// Particle of each node of the body.
 std::vector<Index> particleOf(const State& state, Index body)
@@ -75,12 +87,53 @@ bool equal(const std::vector<Ends>& p, const std::vector<Ends>& q)
 
 }  // namespace
 
+void Batch::part()
+{
+    kind.resize(blocks.count());
+    std::iota(kind.begin(), kind.end(), 0U);
+    kinds.assign(blocks.count() * kOfKind, 0);
+    shared = 0;
+}
+
+void Batch::share()
+{
+    std::vector<float> distinct;
+    std::map<std::uint64_t, std::uint32_t> known;  // by a hash: kinds of equal ones that differ are kept twice
+    for (std::uint32_t& of : kind) {
+        const float* own = &kinds[of * kOfKind];
+        std::uint64_t hash = 0xcbf29ce484222325U;
+        for (std::size_t i = 0; i < kOfKind; ++i) hash = (hash ^ bitsOf(own[i])) * 0x100000001b3U;
+        const auto next = static_cast<std::uint32_t>(distinct.size() / kOfKind);
+        of = known.emplace(hash, next).first->second;
+        if (of != next && std::equal(own, own + kOfKind, &distinct[of * kOfKind])) continue;
+        of = next;
+        distinct.insert(distinct.end(), own, own + kOfKind);
+    }
+    kinds = std::vector<float>(distinct.begin(), distinct.end());
+    shared = static_cast<std::uint32_t>(kinds.size() / kOfKind);
+}
+
+void Batch::cut(std::uint32_t seat)
+{
+    std::uint32_t& of = kind[seat / kLanes];
+    if (of < shared) {
+        std::array<float, kOfKind> own;
+        std::copy_n(&kinds[of * kOfKind], kOfKind, own.begin());
+        of = static_cast<std::uint32_t>(kinds.size() / kOfKind);
+        kinds.insert(kinds.end(), own.begin(), own.end());
+    }
+    float* at = spring(seat);
+    at[0] = at[kLanes] = 0;
+    tear[seat] = std::numeric_limits<float>::max();
+}
+
 std::size_t Batch::bytes() const
 {
     return bodies.capacity() * sizeof(Index) + nodeAt.capacity() * sizeof(Index) +
            blocks.runs.capacity() * sizeof(Run) +
            (blocks.ends.capacity() + blocks.seat.capacity()) * sizeof(std::uint32_t) +
-           (coefficients.capacity() + tear.capacity()) * sizeof(float);
+           kind.capacity() * sizeof(std::uint32_t) +
+           (rest.capacity() + kinds.capacity() + tear.capacity()) * sizeof(float);
 }
 
 Topology Topology::of(const SoftBodyDef& def)

@@ -20,14 +20,27 @@ struct Batch {
     Index rows = 0;             // nodes of one body
     std::vector<Index> nodeAt;  // [rows * 8] of bodies alike; lanes without a body stand for the first. Empty: one body
     Blocks blocks;  // of bodies alike: runs alone, each of one spring of every body; seats are those of lane 0
-    std::vector<float> coefficients, tear;  // see SpringBlocks; tear is empty where none tears
+    // See SpringBlocks. tear is empty where none tears.
+    std::vector<float> rest, tear;
+    std::vector<std::uint32_t> kind;  // [blocks]
+    std::vector<float> kinds;         // [][2][8]
+    std::uint32_t shared = 0;         // kinds that may be of several blocks; those behind are of one each
 
     bool alike() const { return !nodeAt.empty(); }
-    std::size_t planeSize() const { return alike() ? std::size_t{rows} * kLanes : rows; }
+    /// Nodes the planes hold at a time.
+    std::size_t room() const { return alike() ? std::size_t{rows} * kLanes : roomFor(rows, blocks.reach); }
     /// block * 8 + lane of the body's spring
     std::uint32_t seat(std::uint32_t lane, std::uint32_t spring) const { return blocks.seat[spring] + lane; }
     /// Are there so many springs to gather that all particles are also kept as x y vx vy?
     bool gathers() const { return 2 * blocks.ends.size() > rows; }
+    /// Before the springs are filled in: each block gets a kind of its own.
+    void part();
+    /// Afterwards: what is equal is kept once.
+    void share();
+    /// Stiffness of the spring in that seat; its damping follows 8 further on.
+    float* spring(std::uint32_t seat) { return &kinds[std::size_t{kind[seat / kLanes]} * 2 * kLanes + seat % kLanes]; }
+    /// The spring in that seat is no more.
+    void cut(std::uint32_t seat);
     std::size_t bytes() const;
 };
 

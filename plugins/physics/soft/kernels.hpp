@@ -29,24 +29,44 @@ struct Run {
     std::uint32_t a = 0, b = 0;
 };
 
-/// [nodes], each with room for 8 more.
+/// A stretch of nodes in planes: x, y, vx and vy (units, units / s, from the frame), and the sums of the springs'
+/// forces along x and y.
 struct Planes {
-    float *x, *y, *vx, *vy;  ///< units, units / s, from the frame
-    float *fx, *fy;          ///< sums of the springs' forces
-    float* near;             ///< [nodes][4] x y vx vy, where many springs must be gathered; else null
+    enum Plane : std::size_t { X, Y, Vx, Vy, Fx, Fy, kCount };
+
+    float* first;        ///< plane X
+    std::size_t stride;  ///< from each plane to the next: the room, and 8 more
+    float* near;         ///< [room][4] x y vx vy, where many springs must be gathered; else null
+    std::size_t room;    ///< nodes, a multiple of 8: see roomFor()
+
+    float* operator[](Plane plane) const { return first + plane * stride; }
 };
+
+/// Nodes that are pulled at and moved at a time.
+inline constexpr std::size_t kPortion = 64;
+
+/// Room in the planes for a body: a portion and what it reaches to. A body larger than that goes through the planes
+/// piece by piece. `reach`: nodes from the first one of a block to the last.
+inline std::size_t roomFor(std::size_t nodes, std::size_t reach)
+{
+    constexpr std::size_t kPiece = 512;
+    const std::size_t whole = (nodes + 7) & ~std::size_t{7}, piece = (reach + 2 * kPortion + kPiece) & ~std::size_t{7};
+    return whole < piece ? whole : piece;
+}
 
 /// Springs of one body, or of 8 alike. Node indices are places in the planes.
 struct SpringBlocks {
     const Run* runs = nullptr;  ///< those of equal a one after the other
     std::size_t runCount = 0;
-    const std::uint32_t* ends = nullptr;  ///< [scattered][16]: 8 nodes a, 8 nodes b
+    const std::uint32_t* ends = nullptr;  ///< [scattered][16]: 8 nodes a, ascending over all of them; 8 nodes b >= a
     std::size_t scatteredCount = 0;
-    /// [runs + scattered][3][8]: rest length, stiffness, damping. All 0: no spring.
-    const float* coefficients = nullptr;
-    const float* tear = nullptr;    ///< [runs + scattered][8] units; null: none tears
-    std::uint32_t* torn = nullptr;  ///< [runs + scattered]: blocks that may have torn springs are put here
-    float crush = 0;                ///< seconds; see kCrushed
+    const float* rest = nullptr;          ///< [runs + scattered][8] units
+    const std::uint32_t* kind = nullptr;  ///< [runs + scattered] into kinds: most blocks are alike
+    const float* kinds = nullptr;         ///< [][2][8]: stiffness, damping; both 0: no spring
+    const float* tear = nullptr;          ///< [runs + scattered][8] units; null: none tears
+    std::uint32_t* torn = nullptr;        ///< [runs + scattered]: blocks that may have torn springs are put here
+    float crush = 0;                      ///< seconds; see kCrushed
+    std::size_t reach = 0;                ///< nodes from the first one of a block to the last, at most
 };
 
 /// Springs shorter than this part of their rest length are damped by their stiffness times SpringBlocks::crush, too.
@@ -66,27 +86,42 @@ struct Frame {
     double x = 0, y = 0, vx = 0, vy = 0;
 };
 
+/// The nodes of one body, as they lie in State::nodes.
+struct NodeArrays {
+    const double* position;  ///< [count][2]
+    double* velocity;        ///< [count][2]
+    double* force;           ///< [count][2] from outside; null: none
+    const double* inverseMass;
+    std::size_t count;
+};
+
+/// What the springs of a body did in one substep.
+struct Swing {
+    double x = 0, y = 0;   ///< sum of their forces: null but for rounding
+    bool pinned = false;   ///< is any of the nodes?
+    std::size_t torn = 0;  ///< blocks put into SpringBlocks::torn
+};
+
 struct Kernels {
-    /// Fills the planes with nodes 0 .. in the frame; no forces.
-    void (*relate)(const double* position, const double* velocity, std::size_t nodes, const Frame&, const Planes&);
-    /// The same for bodies alike: row k, lane l is node nodeAt[8 k + l] in frames[l].
+    /// Changes the velocities by the springs, gravity and the forces from outside, as accelerate() does; the planes are
+    /// its scratch. A body is gone through once, a few rows at a time: what is related to the frame is pulled at and
+    /// accelerated while it is still near in the cache.
+    Swing (*swing)(const SpringBlocks&, const NodeArrays&, const Frame&, const VelocityStep&, const Planes&);
+    /// Fills the planes with those of bodies alike: row k, lane l is node nodeAt[8 k + l] in frames[l]; no forces.
     void (*relateAlike)(const double* position, const double* velocity, const std::uint32_t* nodeAt, std::size_t rows,
                         const Frame* frames, const Planes&);
     /// Adds the springs' forces; returns how many blocks it put into `torn`.
     std::size_t (*pull)(const SpringBlocks&, const Planes&);
-    /// Sums of the forces along x and y.
-    void (*sum)(const Planes&, std::size_t nodes, double* total);
-    /// totals[l], totals[8 + l]: those of the body in lane l.
+    /// totals[l], totals[8 + l]: sums of the forces along x and y of the body in lane l.
     void (*sumAlike)(const Planes&, std::size_t rows, double* totals);
-    /// v = kept (v + h (g + f / m)), force = 0; nodes of inverse mass 0 stay as they are. f: `force`, unless that is
-    /// null, and that of the planes, unless those are.
+    /// v = kept (v + h (g + f / m)), force = 0; nodes of inverse mass 0 stay as they are.
     void (*accelerate)(double* velocity, double* force, const double* inverseMass, std::size_t nodes,
-                       const VelocityStep&, const Planes*);
+                       const VelocityStep&);
     /// The same for `count` bodies alike; steps[l] is that of lane l.
     void (*accelerateAlike)(double* velocity, double* force, const double* inverseMass, const std::uint32_t* nodeAt,
                             std::size_t rows, std::size_t count, const VelocityStep* steps, const Planes&);
-    /// x += h v, after slowing what is faster than kMostSpeed; what is not a number is stopped.
-    void (*advance)(double* position, double* velocity, std::size_t nodes, double h);
+    /// v += (driftX, driftY), x += h v, after slowing what is faster than kMostSpeed; what is not a number is stopped.
+    void (*advance)(double* position, double* velocity, std::size_t nodes, double h, double driftX, double driftY);
 };
 
 const Kernels& kernelsSse2();

@@ -16,6 +16,7 @@ struct Avx2 {
     static F8 sub(F8 a, F8 b) { return _mm256_sub_ps(a, b); }
     static F8 mul(F8 a, F8 b) { return _mm256_mul_ps(a, b); }
     static F8 div(F8 a, F8 b) { return _mm256_div_ps(a, b); }
+    static F8 most(F8 a, F8 b) { return _mm256_max_ps(a, b); }
     static F8 sqrt(F8 a) { return _mm256_sqrt_ps(a); }
     static F8 zeroUnlessAbove(F8 value, F8 a, float least)
     {
@@ -77,6 +78,7 @@ struct Avx2 {
     static std::size_t accelerateAlike(double* velocity, const double* inverseMass, const std::uint32_t* nodeAt,
                                        std::size_t rows, std::size_t count, const VelocityStep* steps, const Planes& in)
     {
+        const float *fx = in[Planes::Fx], *fy = in[Planes::Fy];
         std::size_t lane = 0;
         for (; lane + 2 <= count; lane += 2) {
             const VelocityStep &own = steps[lane], &next = steps[lane + 1];
@@ -87,8 +89,8 @@ struct Avx2 {
                 double *v = velocity + 2 * n, *w = velocity + 2 * m;
                 const __m256d inverse = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loaddup_pd(inverseMass + n)),
                                                              _mm_loaddup_pd(inverseMass + m), 1);
-                const __m128 force = _mm_unpacklo_ps(_mm_castsi128_ps(_mm_loadu_si64(in.fx + at)),
-                                                     _mm_castsi128_ps(_mm_loadu_si64(in.fy + at)));
+                const __m128 force = _mm_unpacklo_ps(_mm_castsi128_ps(_mm_loadu_si64(fx + at)),
+                                                     _mm_castsi128_ps(_mm_loadu_si64(fy + at)));
                 const __m256d fall = _mm256_and_pd(gravity, _mm256_cmp_pd(inverse, none, _CMP_GT_OQ));
                 const __m256d change =
                     _mm256_mul_pd(h, _mm256_add_pd(fall, _mm256_mul_pd(inverse, _mm256_cvtps_pd(force))));
@@ -100,40 +102,49 @@ struct Avx2 {
         return lane;
     }
 
-    /// Two nodes at a time; returns how many were done.
-    static std::size_t accelerate(double* velocity, const double* inverseMass, std::size_t nodes,
-                                  const VelocityStep& step, const Planes& in)
+    /// Nodes n up to `to`, with forces from fx and fy on, four at a time; returns the first that was not done.
+    static std::size_t accelerate(const NodeArrays& nodes, std::size_t n, std::size_t to, const VelocityStep& step,
+                                  const float* fx, const float* fy, double* sums, bool& pinned)
     {
         const __m256d gravity = _mm256_setr_pd(step.gravityX, step.gravityY, step.gravityX, step.gravityY);
         const __m256d h = _mm256_set1_pd(step.h), kept = _mm256_set1_pd(step.kept), none = _mm256_setzero_pd();
-        const auto push = [&](double* v, __m256d inverse, __m128 force) {
+        __m256d low = _mm256_loadu_pd(sums), high = _mm256_loadu_pd(sums + 4), still = none;
+        const auto push = [&](double* v, __m256d inverse, __m256d force) {
             const __m256d fall = _mm256_and_pd(gravity, _mm256_cmp_pd(inverse, none, _CMP_GT_OQ));
-            const __m256d change =
-                _mm256_mul_pd(h, _mm256_add_pd(fall, _mm256_mul_pd(inverse, _mm256_cvtps_pd(force))));
+            const __m256d change = _mm256_mul_pd(h, _mm256_add_pd(fall, _mm256_mul_pd(inverse, force)));
             _mm256_storeu_pd(v, _mm256_mul_pd(kept, _mm256_add_pd(_mm256_loadu_pd(v), change)));
         };
-        std::size_t n = 0;
-        for (; n + 4 <= nodes; n += 4) {
-            const __m128 fx = _mm_loadu_ps(in.fx + n), fy = _mm_loadu_ps(in.fy + n);
-            const __m256d inverse = _mm256_loadu_pd(inverseMass + n);
-            push(velocity + 2 * n, _mm256_permute4x64_pd(inverse, 0x50), _mm_unpacklo_ps(fx, fy));
-            push(velocity + 2 * n + 4, _mm256_permute4x64_pd(inverse, 0xfa), _mm_unpackhi_ps(fx, fy));
+        double* velocity = nodes.velocity;
+        for (; n + 4 <= to; n += 4, fx += 4, fy += 4) {
+            const __m128 x = _mm_loadu_ps(fx), y = _mm_loadu_ps(fy);
+            const __m256d inverse = _mm256_loadu_pd(nodes.inverseMass + n);
+            const __m256d first = _mm256_cvtps_pd(_mm_unpacklo_ps(x, y));
+            const __m256d second = _mm256_cvtps_pd(_mm_unpackhi_ps(x, y));
+            low = _mm256_add_pd(low, first), high = _mm256_add_pd(high, second);
+            still = _mm256_or_pd(still, _mm256_cmp_pd(inverse, none, _CMP_EQ_OQ));
+            push(velocity + 2 * n, _mm256_permute4x64_pd(inverse, 0x50), first);
+            push(velocity + 2 * n + 4, _mm256_permute4x64_pd(inverse, 0xfa), second);
         }
+        _mm256_storeu_pd(sums, low), _mm256_storeu_pd(sums + 4, high);
+        pinned |= _mm256_movemask_pd(still) != 0;
         return n;
     }
 
     /// From node n on, until one has a component of velocity that is not below `slow`; returns that, or `nodes`.
-    static std::size_t advance(double* position, const double* velocity, std::size_t n, std::size_t nodes, double h,
-                               double slow)
+    static std::size_t advance(double* position, double* velocity, std::size_t n, std::size_t nodes, const Advance& by)
     {
-        const __m256d step = _mm256_set1_pd(h), signs = _mm256_set1_pd(-0.0), least = _mm256_set1_pd(slow);
+        const __m256d step = _mm256_set1_pd(by.h), signs = _mm256_set1_pd(-0.0), least = _mm256_set1_pd(by.slow);
+        const __m256d drift = _mm256_setr_pd(by.driftX, by.driftY, by.driftX, by.driftY);
+        const bool drifts = by.drifts();
         for (; n + 2 <= nodes; n += 2) {
-            const __m256d v = _mm256_loadu_pd(velocity + 2 * n);
+            __m256d v = _mm256_loadu_pd(velocity + 2 * n);
+            if (drifts) v = _mm256_add_pd(v, drift);
             if (_mm256_movemask_pd(_mm256_cmp_pd(_mm256_andnot_pd(signs, v), least, _CMP_LE_OQ)) != 15) break;
+            if (drifts) _mm256_storeu_pd(velocity + 2 * n, v);
             _mm256_storeu_pd(position + 2 * n,
                              _mm256_add_pd(_mm256_loadu_pd(position + 2 * n), _mm256_mul_pd(step, v)));
         }
-        return advanceOne(position, velocity, n, nodes, h, slow);
+        return advanceOne(position, velocity, n, nodes, by);
     }
 };
 

@@ -4,24 +4,36 @@
 
 #include "kernels.hpp"
 
+#include <algorithm>
 #include <immintrin.h>
 
 namespace jet::physics::soft {
 namespace {
 
-// Springs shorter than the root of this have no direction.
-constexpr float kLeastSquare = 1e-30F;
+// Springs shorter than this have no direction.
+constexpr float kLeastLength = 1e-15F;  // units
 
 inline __m128d splat(double value) { return _mm_set1_pd(value); }
 
+/// How nodes move on: see Kernels::advance.
+struct Advance {
+    double h, slow;  ///< what is faster than `slow` along an axis is looked at more closely
+    double driftX, driftY;
+
+    bool drifts() const { return driftX != 0 || driftY != 0; }
+};
+
 /// One node after the other, from n on, until one has a component of velocity that is not below `slow`.
-inline std::size_t advanceOne(double* position, const double* velocity, std::size_t n, std::size_t nodes, double h,
-                              double slow)
+inline std::size_t advanceOne(double* position, double* velocity, std::size_t n, std::size_t nodes, const Advance& by)
 {
-    const __m128d step = splat(h), signs = splat(-0.0), least = splat(slow);
+    const __m128d step = splat(by.h), signs = splat(-0.0), least = splat(by.slow);
+    const __m128d drift = _mm_setr_pd(by.driftX, by.driftY);
+    const bool drifts = by.drifts();
     for (; n < nodes; ++n) {
-        const __m128d v = _mm_loadu_pd(velocity + 2 * n);
+        __m128d v = _mm_loadu_pd(velocity + 2 * n);
+        if (drifts) v = _mm_add_pd(v, drift);
         if (_mm_movemask_pd(_mm_cmple_pd(_mm_andnot_pd(signs, v), least)) != 3) break;
+        if (drifts) _mm_storeu_pd(velocity + 2 * n, v);
         _mm_storeu_pd(position + 2 * n, _mm_add_pd(_mm_loadu_pd(position + 2 * n), _mm_mul_pd(step, v)));
     }
     return n;
@@ -34,67 +46,144 @@ struct KernelSet {
         F8 x, y, vx, vy;
     };
 
+    /// Sums of forces, those of every fourth node together; are there nodes that never move?
+    struct Sums {
+        double of[4][2]{};
+        bool pinned = false;
+
+        void total(Swing& swing) const
+        {
+            swing.x = (of[0][0] + of[1][0]) + (of[2][0] + of[3][0]);
+            swing.y = (of[0][1] + of[1][1]) + (of[2][1] + of[3][1]);
+            swing.pinned = pinned;
+        }
+    };
+
     /// Tensions of one block along x and y; true where a spring may be longer than it holds.
-    static bool tension(const Offsets& o, const float* coefficients, const float* tear, float crush, F8& fx, F8& fy)
+    static bool tension(const SpringBlocks& blocks, std::size_t block, const Offsets& o, F8& fx, F8& fy)
     {
+        const float* kind = blocks.kinds + 16 * std::size_t{blocks.kind[block]};
         const F8 squared = V::add(V::mul(o.x, o.x), V::mul(o.y, o.y));
         const F8 length = V::sqrt(squared);
-        const F8 inverse = V::zeroUnlessAbove(V::div(V::one(), length), squared, kLeastSquare);
+        F8 inverse = V::div(V::one(), length);
+        const F8 rest = V::load(blocks.rest + 8 * block), stiffness = V::load(kind);
+        const F8 crushed = V::mul(V::all(kCrushed), rest);
+        const bool crush = V::anyAbove(V::most(crushed, V::all(kLeastLength)), length);
+        if (crush) inverse = V::zeroUnlessAbove(inverse, length, kLeastLength);
         const F8 nx = V::mul(o.x, inverse), ny = V::mul(o.y, inverse);
         const F8 speed = V::add(V::mul(o.vx, nx), V::mul(o.vy, ny));
-        const F8 rest = V::load(coefficients), stiffness = V::load(coefficients + 8);
-        F8 force = V::add(V::mul(stiffness, V::sub(length, rest)), V::mul(V::load(coefficients + 16), speed));
-        const F8 least = V::mul(V::all(kCrushed), rest);
-        if (V::anyAbove(least, length)) {
-            const F8 damped = V::mul(V::mul(V::all(crush), stiffness), speed);
-            force = V::add(force, V::zeroUnlessAbove(damped, V::sub(least, length), 0));
+        F8 force = V::add(V::mul(stiffness, V::sub(length, rest)), V::mul(V::load(kind + 8), speed));
+        if (crush) {
+            const F8 damped = V::mul(V::mul(V::all(blocks.crush), stiffness), speed);
+            force = V::add(force, V::zeroUnlessAbove(damped, V::sub(crushed, length), 0));
         }
         fx = V::mul(force, nx);
         fy = V::mul(force, ny);
-        return tear && V::anyAbove(length, V::load(tear));
+        return blocks.tear && V::anyAbove(length, V::load(blocks.tear + 8 * block));
     }
 
-    static F8 apart(const float* plane, F8 a, std::size_t b) { return V::sub(a, V::load(plane + b)); }
+    static void add(float* plane, F8 force) { V::store(plane, V::add(V::load(plane), force)); }
+    static void sub(float* plane, F8 force) { V::store(plane, V::sub(V::load(plane), force)); }
 
-    /// Runs with the same first nodes come one after the other: those are read once, and their forces summed before
-    /// they are put down.
-    static std::size_t pull(const SpringBlocks& blocks, const Planes& planes)
+    /// The runs from number i on whose first nodes are below `end`; planes start at node `base`. Runs with the same
+    /// first nodes come one after the other: those are read once, and their forces summed before they are put down.
+    /// Returns the next run.
+    static std::size_t pullRuns(const SpringBlocks& blocks, std::size_t i, std::size_t end, const Planes& planes,
+                                std::size_t base, std::size_t& torn)
     {
-        const Planes in = planes;
-        std::size_t torn = 0;
-        const float* coefficients = blocks.coefficients;
-        const float* tear = blocks.tear;
-        const auto note = [&](std::size_t block, bool tears) {
-            if (tears) blocks.torn[torn++] = static_cast<std::uint32_t>(block);
-            coefficients += 24;
-            if (tear) tear += 8;
-        };
+        const SpringBlocks of = blocks;
+        const std::size_t stride = planes.stride;
+        float* const start = planes.first;
+        std::size_t tears = torn;
         F8 fx, fy;
-        for (std::size_t i = 0; i < blocks.runCount;) {
-            const std::uint32_t a = blocks.runs[i].a;
-            const Offsets first{V::load(in.x + a), V::load(in.y + a), V::load(in.vx + a), V::load(in.vy + a)};
+        while (i < of.runCount && of.runs[i].a < end) {
+            const std::uint32_t first = of.runs[i].a;
+            float* const a = start + (first - base);
+            const Offsets from{V::load(a), V::load(a + stride), V::load(a + 2 * stride), V::load(a + 3 * stride)};
             F8 sumX = V::zero(), sumY = V::zero();
             do {
-                const std::size_t b = blocks.runs[i].b;
-                const bool tears = tension({apart(in.x, first.x, b), apart(in.y, first.y, b), apart(in.vx, first.vx, b),
-                                            apart(in.vy, first.vy, b)},
-                                           coefficients, tear, blocks.crush, fx, fy);
+                float* const b = start + (of.runs[i].b - base);
+                const Offsets apart{V::sub(from.x, V::load(b)), V::sub(from.y, V::load(b + stride)),
+                                    V::sub(from.vx, V::load(b + 2 * stride)), V::sub(from.vy, V::load(b + 3 * stride))};
+                if (tension(of, i, apart, fx, fy)) of.torn[tears++] = static_cast<std::uint32_t>(i);
                 sumX = V::add(sumX, fx), sumY = V::add(sumY, fy);
-                V::store(in.fx + b, V::add(V::load(in.fx + b), fx));
-                V::store(in.fy + b, V::add(V::load(in.fy + b), fy));
-                note(i++, tears);
-            } while (i < blocks.runCount && blocks.runs[i].a == a);
-            V::store(in.fx + a, V::sub(V::load(in.fx + a), sumX));
-            V::store(in.fy + a, V::sub(V::load(in.fy + a), sumY));
+                add(b + 4 * stride, fx), add(b + 5 * stride, fy);
+                ++i;
+            } while (i < of.runCount && of.runs[i].a == first);
+            sub(a + 4 * stride, sumX), sub(a + 5 * stride, sumY);
         }
-        for (std::size_t i = 0; i < blocks.scatteredCount; ++i) {
-            const std::uint32_t *a = blocks.ends + 16 * i, *b = a + 8;
-            const bool tears =
-                tension(in.near ? gathered(in.near, a, b) : picked(in, a, b), coefficients, tear, blocks.crush, fx, fy);
-            scatter(in, a, b, fx, fy);
-            note(blocks.runCount + i, tears);
-        }
+        torn = tears;
+        return i;
+    }
+
+    static std::size_t pull(const SpringBlocks& blocks, const Planes& planes)
+    {
+        std::size_t torn = 0;
+        pullRuns(blocks, 0, planes.room, planes, 0, torn);
         return torn;
+    }
+
+    /// The way of one body through the planes, a portion at a time: what it reaches to is related to the frame, its
+    /// springs pull, and it is moved; nothing pulls at its nodes any more.
+    struct Passage {
+        const SpringBlocks& blocks;
+        const NodeArrays& nodes;
+        const Frame& frame;
+        const VelocityStep& step;
+        Planes planes;
+        Sums sums{};
+        std::size_t base = 0, moved = 0, related = 0;  // nodes; moved <= related
+        std::size_t run = 0, scattered = 0, torn = 0;
+
+        void go(std::size_t end)
+        {
+            const std::size_t reach = std::min(nodes.count, (end + blocks.reach + 7) & ~std::size_t{7});
+            if (reach > related) {
+                if (reach > base + planes.room) slide();
+                relate(*this, reach);
+                related = reach;
+            }
+            gather(end);
+            run = pullRuns(blocks, run, end, planes, base, torn);
+            accelerate(*this, end);
+            moved = end;
+        }
+        /// What is still needed goes to the start of the planes.
+        void slide()
+        {
+            const std::size_t from = moved - base, to = related - base;
+            for (std::size_t k = 0; k < Planes::kCount; ++k) {
+                float* plane = planes.first + k * planes.stride;
+                std::copy(plane + from, plane + to, plane);
+            }
+            if (planes.near) std::copy(planes.near + 4 * from, planes.near + 4 * to, planes.near);
+            base = moved;
+        }
+        /// The springs that lie anywhere, of blocks whose first node is below `end`.
+        void gather(std::size_t end)
+        {
+            for (; scattered < blocks.scatteredCount && blocks.ends[16 * scattered] < end; ++scattered) {
+                std::uint32_t at[16];
+                for (std::size_t k = 0; k < 16; ++k)
+                    at[k] = blocks.ends[16 * scattered + k] - static_cast<std::uint32_t>(base);
+                const std::size_t block = blocks.runCount + scattered;
+                F8 fx, fy;
+                const Offsets apart = planes.near ? gathered(planes.near, at, at + 8) : picked(planes, at, at + 8);
+                if (tension(blocks, block, apart, fx, fy)) blocks.torn[torn++] = static_cast<std::uint32_t>(block);
+                scatter(planes, at, at + 8, fx, fy);
+            }
+        }
+    };
+
+    static Swing swing(const SpringBlocks& blocks, const NodeArrays& nodes, const Frame& frame,
+                       const VelocityStep& step, const Planes& planes)
+    {
+        Passage way{blocks, nodes, frame, step, planes};
+        while (way.moved < nodes.count) way.go(std::min(nodes.count, way.moved + kPortion));
+        Swing swing;
+        swing.torn = way.torn;
+        way.sums.total(swing);
+        return swing;
     }
 
     static Offsets gathered(const float* near, const std::uint32_t* a, const std::uint32_t* b)
@@ -111,21 +200,21 @@ struct KernelSet {
 
     static Offsets picked(const Planes& in, const std::uint32_t* a, const std::uint32_t* b)
     {
-        float x[kLanes], y[kLanes], vx[kLanes], vy[kLanes];
-        for (std::uint32_t k = 0; k < kLanes; ++k) {
-            x[k] = in.x[a[k]] - in.x[b[k]], y[k] = in.y[a[k]] - in.y[b[k]];
-            vx[k] = in.vx[a[k]] - in.vx[b[k]], vy[k] = in.vy[a[k]] - in.vy[b[k]];
+        float apart[4][kLanes];
+        for (std::size_t plane = 0; plane < 4; ++plane) {
+            const float* from = in.first + plane * in.stride;
+            for (std::uint32_t k = 0; k < kLanes; ++k) apart[plane][k] = from[a[k]] - from[b[k]];
         }
-        return {V::load(x), V::load(y), V::load(vx), V::load(vy)};
+        return {V::load(apart[0]), V::load(apart[1]), V::load(apart[2]), V::load(apart[3])};
     }
 
     static void scatter(const Planes& in, const std::uint32_t* a, const std::uint32_t* b, F8 fx, F8 fy)
     {
-        float x[kLanes], y[kLanes];
+        float *toX = in[Planes::Fx], *toY = in[Planes::Fy], x[kLanes], y[kLanes];
         V::store(x, fx), V::store(y, fy);
         for (std::uint32_t k = 0; k < kLanes; ++k) {
-            in.fx[a[k]] -= x[k], in.fy[a[k]] -= y[k];
-            in.fx[b[k]] += x[k], in.fy[b[k]] += y[k];
+            toX[a[k]] -= x[k], toY[a[k]] -= y[k];
+            toX[b[k]] += x[k], toY[b[k]] += y[k];
         }
     }
 
@@ -141,71 +230,58 @@ struct KernelSet {
         _mm_storeu_ps(y, _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
     }
 
-    static void relate(const double* position, const double* velocity, std::size_t nodes, const Frame& frame,
-                       const Planes& out)
+    /// From the first that is not in the planes, a multiple of 8, up to `to`; that is one, too, or the last.
+    static void relate(const Passage& way, std::size_t to)
     {
-        const __m128 none = _mm_setzero_ps();
-        std::size_t n = 0;
-        for (; n + 4 <= nodes; n += 4) {
-            V::narrow(position + 2 * n, &frame.x, out.x + n, out.y + n);
-            V::narrow(velocity + 2 * n, &frame.vx, out.vx + n, out.vy + n);
-            _mm_storeu_ps(out.fx + n, none), _mm_storeu_ps(out.fy + n, none);
-            if (out.near) interleave(out, n);
+        const Planes out = way.planes;
+        float *x = out[Planes::X], *y = out[Planes::Y], *vx = out[Planes::Vx], *vy = out[Planes::Vy];
+        float *fx = out[Planes::Fx], *fy = out[Planes::Fy];
+        const double *position = way.nodes.position, *velocity = way.nodes.velocity;
+        const Frame frame = way.frame;
+        std::size_t n = way.related, at = n - way.base;
+        for (; n + 4 <= to; n += 4, at += 4) {
+            V::narrow(position + 2 * n, &frame.x, x + at, y + at);
+            V::narrow(velocity + 2 * n, &frame.vx, vx + at, vy + at);
+            _mm_storeu_ps(fx + at, _mm_setzero_ps()), _mm_storeu_ps(fy + at, _mm_setzero_ps());
+            if (out.near) interleave(out, at);
         }
-        for (; n < nodes; ++n) {
-            out.x[n] = static_cast<float>(position[2 * n] - frame.x);
-            out.y[n] = static_cast<float>(position[2 * n + 1] - frame.y);
-            out.vx[n] = static_cast<float>(velocity[2 * n] - frame.vx);
-            out.vy[n] = static_cast<float>(velocity[2 * n + 1] - frame.vy);
+        for (; n < to; ++n, ++at) {
+            x[at] = static_cast<float>(position[2 * n] - frame.x);
+            y[at] = static_cast<float>(position[2 * n + 1] - frame.y);
+            vx[at] = static_cast<float>(velocity[2 * n] - frame.vx);
+            vy[at] = static_cast<float>(velocity[2 * n + 1] - frame.vy);
+            fx[at] = fy[at] = 0;
+            if (out.near) _mm_storeu_ps(out.near + 4 * at, _mm_setr_ps(x[at], y[at], vx[at], vy[at]));
         }
-        for (std::size_t k = nodes & ~std::size_t{3}; out.near && k < nodes; ++k)
-            _mm_storeu_ps(out.near + 4 * k, _mm_setr_ps(out.x[k], out.y[k], out.vx[k], out.vy[k]));
-        // Sums take four at a time.
-        for (n &= ~std::size_t{3}; n < nodes + 8; ++n) out.fx[n] = out.fy[n] = 0;
     }
 
-    static void interleave(const Planes& out, std::size_t n)
+    static void interleave(const Planes& out, std::size_t at)
     {
-        __m128 node[4] = {_mm_loadu_ps(out.x + n), _mm_loadu_ps(out.y + n), _mm_loadu_ps(out.vx + n),
-                          _mm_loadu_ps(out.vy + n)};
+        __m128 node[4];
+        for (std::size_t plane = 0; plane < 4; ++plane) node[plane] = _mm_loadu_ps(out.first + plane * out.stride + at);
         _MM_TRANSPOSE4_PS(node[0], node[1], node[2], node[3]);
-        for (int i = 0; i < 4; ++i) _mm_storeu_ps(out.near + 4 * n + 4 * i, node[i]);
+        for (std::size_t i = 0; i < 4; ++i) _mm_storeu_ps(out.near + 4 * (at + i), node[i]);
     }
 
     static void relateAlike(const double* position, const double* velocity, const std::uint32_t* nodeAt,
                             std::size_t rows, const Frame* frames, const Planes& out)
     {
-        const __m128 none = _mm_setzero_ps();
+        float *x = out[Planes::X], *y = out[Planes::Y], *vx = out[Planes::Vx], *vy = out[Planes::Vy];
+        float *fx = out[Planes::Fx], *fy = out[Planes::Fy];
         for (std::size_t half = 0; half < 8; half += 4) {
             const typename V::Origins places(&frames[half].x), moving(&frames[half].vx);
             for (std::size_t at = half; at < 8 * rows; at += 8) {
-                places.narrow(position, nodeAt + at, out.x + at, out.y + at);
-                moving.narrow(velocity, nodeAt + at, out.vx + at, out.vy + at);
-                _mm_storeu_ps(out.fx + at, none), _mm_storeu_ps(out.fy + at, none);
+                places.narrow(position, nodeAt + at, x + at, y + at);
+                moving.narrow(velocity, nodeAt + at, vx + at, vy + at);
+                _mm_storeu_ps(fx + at, _mm_setzero_ps()), _mm_storeu_ps(fy + at, _mm_setzero_ps());
             }
-        }
-    }
-
-    static void sum(const Planes& in, std::size_t nodes, double* total)
-    {
-        __m128d sums[4] = {_mm_setzero_pd(), _mm_setzero_pd(), _mm_setzero_pd(), _mm_setzero_pd()};
-        for (std::size_t n = 0; n < nodes; n += 4) {
-            const __m128 x = _mm_loadu_ps(in.fx + n), y = _mm_loadu_ps(in.fy + n);
-            sums[0] = _mm_add_pd(sums[0], _mm_cvtps_pd(x));
-            sums[1] = _mm_add_pd(sums[1], _mm_cvtps_pd(_mm_movehl_ps(x, x)));
-            sums[2] = _mm_add_pd(sums[2], _mm_cvtps_pd(y));
-            sums[3] = _mm_add_pd(sums[3], _mm_cvtps_pd(_mm_movehl_ps(y, y)));
-        }
-        for (int axis = 0; axis < 2; ++axis) {
-            const __m128d both = _mm_add_pd(sums[2 * axis], sums[2 * axis + 1]);
-            total[axis] = _mm_cvtsd_f64(both) + _mm_cvtsd_f64(_mm_unpackhi_pd(both, both));
         }
     }
 
     static void sumAlike(const Planes& in, std::size_t rows, double* totals)
     {
         for (int axis = 0; axis < 2; ++axis) {
-            const float* f = axis == 0 ? in.fx : in.fy;
+            const float* f = axis == 0 ? in[Planes::Fx] : in[Planes::Fy];
             __m128d sums[4] = {_mm_setzero_pd(), _mm_setzero_pd(), _mm_setzero_pd(), _mm_setzero_pd()};
             for (std::size_t row = 0; row < rows; ++row) {
                 for (int half = 0; half < 2; ++half) {
@@ -234,34 +310,56 @@ struct KernelSet {
     };
 
     static void accelerate(double* velocity, double* force, const double* inverseMass, std::size_t nodes,
-                           const VelocityStep& step, const Planes* planes)
+                           const VelocityStep& step)
     {
         const Push push(step);
         const __m128d zero = _mm_setzero_pd();
-        std::size_t n = planes && !force ? V::accelerate(velocity, inverseMass, nodes, step, *planes) : 0;
-        for (; n < nodes; ++n) {
+        for (std::size_t n = 0; n < nodes; ++n) {
             __m128d all = zero;
             if (force) all = _mm_loadu_pd(force + 2 * n), _mm_storeu_pd(force + 2 * n, zero);
-            if (planes) all = _mm_add_pd(all, widened(*planes, n));
             push(velocity + 2 * n, inverseMass[n], all);
         }
     }
 
-    static __m128d widened(const Planes& in, std::size_t n)
+    /// From the first that is not moved, a multiple of 4, up to `to`.
+    static void accelerate(Passage& way, std::size_t to)
     {
-        return _mm_cvtps_pd(_mm_unpacklo_ps(_mm_load_ss(in.fx + n), _mm_load_ss(in.fy + n)));
+        const NodeArrays& nodes = way.nodes;
+        const float *fx = way.planes[Planes::Fx], *fy = way.planes[Planes::Fy];
+        const Push push(way.step);
+        const __m128d zero = _mm_setzero_pd();
+        std::size_t n = way.moved, at = n - way.base;
+        if (!nodes.force) n = V::accelerate(nodes, n, to, way.step, fx + at, fy + at, way.sums.of[0], way.sums.pinned);
+        for (; n < to; ++n) {
+            at = n - way.base;
+            __m128d all = widened(fx + at, fy + at);
+            double* sum = way.sums.of[n % 4];
+            _mm_storeu_pd(sum, _mm_add_pd(_mm_loadu_pd(sum), all));
+            way.sums.pinned |= nodes.inverseMass[n] == 0;
+            if (nodes.force) {
+                all = _mm_add_pd(_mm_loadu_pd(nodes.force + 2 * n), all);
+                _mm_storeu_pd(nodes.force + 2 * n, zero);
+            }
+            push(nodes.velocity + 2 * n, nodes.inverseMass[n], all);
+        }
+    }
+
+    static __m128d widened(const float* fx, const float* fy)
+    {
+        return _mm_cvtps_pd(_mm_unpacklo_ps(_mm_load_ss(fx), _mm_load_ss(fy)));
     }
 
     static void accelerateAlike(double* velocity, double* force, const double* inverseMass, const std::uint32_t* nodeAt,
                                 std::size_t rows, std::size_t count, const VelocityStep* steps, const Planes& in)
     {
+        const float *fx = in[Planes::Fx], *fy = in[Planes::Fy];
         // Body by body: their particles lie together.
         std::size_t lane = force ? 0 : V::accelerateAlike(velocity, inverseMass, nodeAt, rows, count, steps, in);
         for (; lane < count; ++lane) {
             const Push push(steps[lane]);
             for (std::size_t row = 0; row < rows; ++row) {
                 const std::size_t at = 8 * row + lane, n = nodeAt[at];
-                __m128d all = widened(in, at);
+                __m128d all = widened(fx + at, fy + at);
                 if (force) {
                     all = _mm_add_pd(_mm_loadu_pd(force + 2 * n), all);
                     _mm_storeu_pd(force + 2 * n, _mm_setzero_pd());
@@ -271,13 +369,15 @@ struct KernelSet {
         }
     }
 
-    static void advance(double* position, double* velocity, std::size_t nodes, double h)
+    static void advance(double* position, double* velocity, std::size_t nodes, double h, double driftX, double driftY)
     {
-        constexpr double kSlow = 0.7 * kMostSpeed;
+        const Advance by{h, 0.7 * kMostSpeed, driftX, driftY};
         for (std::size_t n = 0; n < nodes; ++n) {
-            n = V::advance(position, velocity, n, nodes, h, kSlow);  // up to one that is fast
+            n = V::advance(position, velocity, n, nodes, by);  // up to one that is fast
             if (n == nodes) return;
-            const __m128d v = limited(_mm_loadu_pd(velocity + 2 * n));
+            __m128d v = _mm_loadu_pd(velocity + 2 * n);
+            if (by.drifts()) v = _mm_add_pd(v, _mm_setr_pd(driftX, driftY));
+            v = limited(v);
             _mm_storeu_pd(velocity + 2 * n, v);
             _mm_storeu_pd(position + 2 * n, _mm_add_pd(_mm_loadu_pd(position + 2 * n), _mm_mul_pd(splat(h), v)));
         }
@@ -292,8 +392,7 @@ struct KernelSet {
         return _mm_mul_pd(v, _mm_min_pd(scale, splat(1)));
     }
 
-    static constexpr Kernels table{&relate,     &relateAlike,     &pull,   &sum, &sumAlike,
-                                   &accelerate, &accelerateAlike, &advance};
+    static constexpr Kernels table{&swing, &relateAlike, &pull, &sumAlike, &accelerate, &accelerateAlike, &advance};
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct Sse2 {
     static F8 sub(F8 a, F8 b) { return {_mm_sub_ps(a.low, b.low), _mm_sub_ps(a.high, b.high)}; }
     static F8 mul(F8 a, F8 b) { return {_mm_mul_ps(a.low, b.low), _mm_mul_ps(a.high, b.high)}; }
     static F8 div(F8 a, F8 b) { return {_mm_div_ps(a.low, b.low), _mm_div_ps(a.high, b.high)}; }
+    static F8 most(F8 a, F8 b) { return {_mm_max_ps(a.low, b.low), _mm_max_ps(a.high, b.high)}; }
     static F8 sqrt(F8 a) { return {_mm_sqrt_ps(a.low), _mm_sqrt_ps(a.high)}; }
     static F8 zeroUnlessAbove(F8 value, F8 a, float least)
     {
@@ -69,13 +70,16 @@ struct Sse2 {
     {
         return 0;
     }
-    static std::size_t accelerate(double*, const double*, std::size_t, const VelocityStep&, const Planes&) { return 0; }
+    static std::size_t accelerate(const NodeArrays&, std::size_t n, std::size_t, const VelocityStep&, const float*,
+                                  const float*, double*, bool&)
+    {
+        return n;
+    }
 
     /// From node n on, until one has a component of velocity that is not below `slow`; returns that, or `nodes`.
-    static std::size_t advance(double* position, const double* velocity, std::size_t n, std::size_t nodes, double h,
-                               double slow)
+    static std::size_t advance(double* position, double* velocity, std::size_t n, std::size_t nodes, const Advance& by)
     {
-        return advanceOne(position, velocity, n, nodes, h, slow);
+        return advanceOne(position, velocity, n, nodes, by);
     }
 };
 

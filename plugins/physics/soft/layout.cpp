@@ -123,6 +123,18 @@ void sortByFirst(Blocks& blocks)
         if (seat != kAlone) seat = place[seat / kLanes] * kLanes + seat % kLanes;
 }
 
+/// Nodes from the first one of a block to the last, at most.
+std::uint32_t reachOf(const Blocks& blocks)
+{
+    std::uint32_t reach = 0;
+    for (const Run& run : blocks.runs) reach = std::max(reach, run.b + kLanes - run.a);
+    for (std::size_t at = 0; at < blocks.ends.size(); at += 2 * kLanes) {
+        const std::uint32_t* ends = blocks.ends.data() + at;
+        reach = std::max(reach, *std::max_element(ends, ends + 2 * kLanes) + 1 - ends[0]);
+    }
+    return reach;
+}
+
 }  // namespace
 
 Order orderOf(const SoftBodyDef& def)
@@ -167,7 +179,8 @@ Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes)
     });
     for (std::size_t at = 0; at < alone.size(); at += kLanes) {
         const auto block = static_cast<std::uint32_t>(blocks.count());
-        blocks.ends.resize(blocks.ends.size() + 2 * kLanes, 0);
+        const std::uint32_t low = std::min(springs[alone[at]].a, springs[alone[at]].b);
+        blocks.ends.resize(blocks.ends.size() + 2 * kLanes, low);  // of lanes without a spring
         std::uint32_t* ends = blocks.ends.data() + blocks.ends.size() - 2 * kLanes;
         for (std::uint32_t k = 0; k < kLanes && at + k < alone.size(); ++k) {
             const std::uint32_t spring = alone[at + k];
@@ -176,6 +189,7 @@ Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes)
             blocks.seat[spring] = block * kLanes + k;
         }
     }
+    blocks.reach = reachOf(blocks);
     return blocks;
 }
 

@@ -23,6 +23,7 @@ struct Blocks {
     std::vector<Run> runs;
     std::vector<std::uint32_t> ends;  ///< of scattered springs, see SpringBlocks
     std::vector<std::uint32_t> seat;  ///< [springs] block * 8 + lane
+    std::uint32_t reach = 0;          ///< nodes from the first of a block to the last, at most
 
     std::size_t count() const { return runs.size() + ends.size() / (2 * kLanes); }
 };

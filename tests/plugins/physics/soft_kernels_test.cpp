@@ -93,17 +93,16 @@ struct Particles {
 /// The planes of `size` nodes, in memory of their own.
 struct Room {
     explicit Room(std::size_t size)
+        : size_((size + 7) & ~std::size_t{7}), planes(Planes::kCount * (size_ + 8), 7), near(4 * size_, 7)
     {
-        for (auto& plane : planes) plane.assign(size + 8, 7);
-        near.assign(4 * size, 7);
     }
-    Planes view()
-    {
-        return {planes[0].data(), planes[1].data(), planes[2].data(), planes[3].data(),
-                planes[4].data(), planes[5].data(), near.data()};
-    }
-    std::array<std::vector<float>, 6> planes;
-    std::vector<float> near;
+    Planes view() { return {planes.data(), size_ + 8, near.data(), size_}; }
+
+private:
+    std::size_t size_;
+
+public:
+    std::vector<float> planes, near;
 };
 
 class Random {
@@ -143,25 +142,28 @@ TEST(SoftKernels, EveryInstructionSetGivesTheSameBits)
         const auto order = orderOf(def);
         const Blocks blocks = arrange(endsOf(def, order), static_cast<std::uint32_t>(order.size()));
         const Particles start = shaken(def, order, number);
-        const auto coefficients = numbers(blocks.count() * 3 * kLanes, 0, 20, number);
+        const auto rest = numbers(blocks.count() * kLanes, 0, 20, number), kinds = numbers(3 * 16, 0, 20, number);
         const auto tear = numbers(blocks.count() * kLanes, 1, 40, number);
+        std::vector<std::uint32_t> kind(blocks.count());
+        for (std::size_t i = 0; i < kind.size(); ++i) kind[i] = i % 3;
         const auto run = [&](const Kernels& kernels, bool pushed) {
             Particles now = start;
             std::vector<double> force(now.position.size(), 0.25);
-            Room room(order.size());
-            const Planes planes = room.view();
+            Room room(roomFor(order.size(), blocks.reach));
             std::vector<std::uint32_t> torn(blocks.count());
-            const SpringBlocks springs{
-                blocks.runs.data(),  blocks.runs.size(), blocks.ends.data(), blocks.ends.size() / 16,
-                coefficients.data(), tear.data(),        torn.data()};
-            kernels.relate(now.position.data(), now.velocity.data(), order.size(), {now.position[0], 2, 1, 2}, planes);
-            torn.resize(kernels.pull(springs, planes));
-            std::vector<double> left(2);
-            kernels.sum(planes, order.size(), left.data());
-            kernels.accelerate(now.velocity.data(), pushed ? force.data() : nullptr, now.inverse.data(), order.size(),
-                               {1.0 / 480, 0.3, 9.8, 0.999}, &planes);
-            kernels.advance(now.position.data(), now.velocity.data(), order.size(), 1.0 / 480);
-            return std::tuple(now.position, now.velocity, room.planes, room.near, left, force, torn);
+            const SpringBlocks springs{blocks.runs.data(), blocks.runs.size(),
+                                       blocks.ends.data(), blocks.ends.size() / 16,
+                                       rest.data(),        kind.data(),
+                                       kinds.data(),       tear.data(),
+                                       torn.data(),        0.001F,
+                                       blocks.reach};
+            const Swing swing = kernels.swing(springs,
+                                              {now.position.data(), now.velocity.data(),
+                                               pushed ? force.data() : nullptr, now.inverse.data(), order.size()},
+                                              {now.position[0], 2, 1, 2}, {1.0 / 480, 0.3, 9.8, 0.999}, room.view());
+            torn.resize(swing.torn);
+            kernels.advance(now.position.data(), now.velocity.data(), order.size(), 1.0 / 480, swing.x, swing.y);
+            return std::tuple(now.position, now.velocity, room.planes, room.near, swing.pinned, force, torn);
         };
         for (const bool pushed : {false, true}) {
             EXPECT_EQ(run(kernelsSse2(), pushed), run(kernelsAvx2(), pushed));
@@ -181,7 +183,8 @@ TEST(SoftKernels, BodiesAlikeGetTheSameBitsFromEveryInstructionSet)
     const Particles start = shaken(def, all, number);
     std::vector<soft::Run> runs;
     for (const SpringDef& spring : def.springs) runs.push_back({8 * spring.a, 8 * spring.b});
-    const auto coefficients = numbers(runs.size() * 3 * kLanes, 0, 20, number);
+    const auto rest = numbers(runs.size() * kLanes, 0, 20, number), kinds = numbers(16, 0, 20, number);
+    const std::vector<std::uint32_t> kind(runs.size(), 0);
     std::array<Frame, 8> frames;
     std::array<VelocityStep, 8> steps;
     for (Frame& frame : frames) frame = {number(-9, 9), number(-9, 9), number(-9, 9), number(-9, 9)};
@@ -192,7 +195,7 @@ TEST(SoftKernels, BodiesAlikeGetTheSameBitsFromEveryInstructionSet)
         Room room(nodeAt.size());
         const Planes planes = room.view();
         kernels.relateAlike(now.position.data(), now.velocity.data(), nodeAt.data(), rows, frames.data(), planes);
-        kernels.pull({runs.data(), runs.size(), nullptr, 0, coefficients.data(), nullptr, nullptr}, planes);
+        kernels.pull({runs.data(), runs.size(), nullptr, 0, rest.data(), kind.data(), kinds.data()}, planes);
         kernels.sumAlike(planes, rows, left.data());
         kernels.accelerateAlike(now.velocity.data(), pushed ? force.data() : nullptr, now.inverse.data(), nodeAt.data(),
                                 rows, 7, steps.data(), planes);

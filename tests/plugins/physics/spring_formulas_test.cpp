@@ -42,6 +42,34 @@ TEST(SpringFormulas, ThePeriodIsTwoPiRootOfMassOverStiffnessOverSixDecades)
     }
 }
 
+TEST(SpringFormulas, ALongBarSwingsInTimeThoughItsFastestMotionsMayNot)
+{
+    // n masses on a line, the first tied to one that is pinned: w_k = 2 sqrt(ks / m) sin((2k - 1) pi / (2 (2n + 1))),
+    // and the k-th motion is sin((2k - 1) pi i / (2n + 1)). Stiff enough to decide about the substeps.
+    constexpr int kCount = 400;
+    constexpr double kStiffness = 3e5;
+    for (const int k : {1, 2, 5}) {
+        SoftBodyDef def;
+        const double turn = (2 * k - 1) * kPi / (2 * kCount + 1);
+        for (int i = 0; i <= kCount; ++i) {
+            def.particles.emplace_back(10 * i + 0.3 * std::sin(turn * i), 0);
+            if (i > 0)
+                def.springs.push_back(
+                    {static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i), 10, kStiffness, 0, 0});
+        }
+        def.masses.assign(def.particles.size(), 1);
+        def.movable.assign(def.particles.size(), 1);
+        def.movable[0] = 0;
+        auto world = makeWorld({0, 0});
+        world->addSoftBody(def);
+        const double period = kPi / (std::sqrt(kStiffness) * std::sin(turn / 2));
+        const Swing swing = swingOf(*world, std::min(kStep, period / 40), 3,
+                                    [&] { return pointsOf(*world, 0)[kCount].x() - 10 * kCount; });
+        EXPECT_LT(world->stats().substeps, 20U);
+        EXPECT_NEAR(swing.period, period, 1e-3 * period) << k;
+    }
+}
+
 TEST(SpringFormulas, TheDampingRatioIsAsAskedOverSixDecades)
 {
     // x = exp(-zeta w t) cos(w sqrt(1 - zeta²) t), zeta = kd / (2 sqrt(ks m)): from one maximum to the next
