@@ -325,6 +325,7 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
 void Collider::findPairs(const WorldSettings& settings, Pool& pool)
 {
     if (!sweep_.anyMoved()) return;
+    sweep_.use(sieve(choiceOf(settings)));
     sweep_.begin();
     const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
     if (foundBy_.size() < blocks) foundBy_.resize(blocks);

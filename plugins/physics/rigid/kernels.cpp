@@ -24,6 +24,13 @@ const Kernels<double>& kernels<double>(KernelChoice choice)
     return wide(choice) ? avx2::doubles : sse2::doubles;
 }
 
+KernelChoice choiceOf(const WorldSettings& settings)
+{
+    return settings.simd == Simd::Automatic ? KernelChoice::Best
+           : settings.simd == Simd::Avx2    ? KernelChoice::Avx2
+                                            : KernelChoice::Sse2;
+}
+
 const Looker& looker(KernelChoice choice) { return wide(choice) ? avx2::pairLooker : sse2::pairLooker; }
 const Sieve& sieve(KernelChoice choice) { return wide(choice) ? avx2::pairSieve : sse2::pairSieve; }
 

@@ -10,7 +10,9 @@ namespace jet::physics {
 namespace {
 
 constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
-constexpr std::uint64_t kCellsPerPart = 8;
+constexpr std::size_t kCellsPerPart = 8;
+constexpr std::size_t kFewMembers = 8;  // a class of no more has no cells
+constexpr std::size_t kFewMoved = 32;   // boxes: as long as no more have moved, the cells stay as they are
 
 }  // namespace
 
@@ -79,21 +81,22 @@ void KeySet::grow()
 
 void PairSweep::Sides::resize(std::size_t count)
 {
-    for (auto* list : {&minX, &minY, &maxX, &maxY}) list->resize(count + 4);
-    for (std::size_t k = 0; k < 4; ++k) minX[count + k] = std::numeric_limits<float>::infinity();
+    for (auto* list : {&minX, &minY, &maxX, &maxY}) list->resize(count + Sieve::kPairs);
+    std::fill(minX.begin() + static_cast<std::ptrdiff_t>(count), minX.end(), std::numeric_limits<float>::infinity());
 }
 
 void PairSweep::resize(std::size_t parts, float typical)
 {
     if (typical_ != typical) std::fill(classes_.begin(), classes_.end(), kNoClass);
     typical_ = typical;
+    filled_ = false;
     if (boxes_.size() == parts) return;
     boxes_.resize(parts), before_.resize(parts, kNowhere);
     if (moved_.size() < parts) anyMoved_ = true;
     moved_.resize(parts, 1), pieceOf_.resize(parts, 0);
     classes_.resize(parts, kNoClass), buckets_.resize(parts), sorted_.resize(parts);
     shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
-    reaches_.resize(parts, 0), sortedReaches_.resize(parts + 4);
+    reaches_.resize(parts, 0), sortedReaches_.resize(parts + Sieve::kPairs);
     now_.resize(parts), then_.resize(parts);
 }
 
@@ -102,6 +105,7 @@ void PairSweep::setLong(Index part)
     if (pieceOf_[part] != 0) return;
     pieceOf_[part] = static_cast<Index>(pieces_.size());
     pieces_.emplace_back();
+    long_.push_back(part);
 }
 
 bool PairSweep::meetsPieces(Index part, const FatBox& box) const
@@ -123,7 +127,7 @@ std::uint8_t PairSweep::classOf(const FatBox& box) const
 void PairSweep::layOut()
 {
     for (Grid& grid : grids_) {
-        grid.members = 0;
+        grid.kind = Grid::Kind::None, grid.members = 0;
         grid.minX = grid.minY = 3e38F, grid.maxX = grid.maxY = -3e38F;
     }
     for (Index part = 0; part < boxes_.size(); ++part) {
@@ -136,19 +140,23 @@ void PairSweep::layOut()
         grid.minY = std::min(grid.minY, box.minY), grid.maxY = std::max(grid.maxY, box.minY);
     }
     hashed_ = 0;
+    bool anyHashed = false;
     for (int which = 0; which < kLast; ++which) {
         Grid& grid = grids_[which];
-        if (grid.members == 0) continue;
-        grid.perRow = 1 / static_cast<double>(cellSize(which)), grid.perColumn = kColumnsPerCell * grid.perRow;
-        grid.row = lineOf(grid.minY, grid.perRow), grid.lastRow = lineOf(grid.maxY, grid.perRow);
-        grid.column = lineOf(grid.minX, grid.perColumn), grid.lastColumn = lineOf(grid.maxX, grid.perColumn);
-        const std::uint64_t cells = (grid.lastRow - grid.row + 1) * (grid.lastColumn - grid.column + 1);
-        grid.table = cells <= kCellsPerPart * grid.members + 64;
-        if (!grid.table) grid.perColumn = grid.perRow, cells_.resize(boxes_.size());
+        if (grid.members <= kFewMembers) continue;
+        grid.perRow = 1 / cellSize(which), grid.perColumn = kColumnsPerCell * grid.perRow;
+        const double rows = std::floor((static_cast<double>(grid.maxY) - grid.minY) * grid.perRow) + 1;
+        const double columns = std::floor((static_cast<double>(grid.maxX) - grid.minX) * grid.perColumn) + 1;
+        const std::size_t most = kCellsPerPart * grid.members + 64;
+        const bool table = rows * columns <= static_cast<double>(most);
+        grid.kind = table ? Grid::Kind::Table : Grid::Kind::Hashed;
+        anyHashed |= !table;
+        if (!table) continue;
+        grid.rows = static_cast<std::size_t>(rows), grid.columns = static_cast<std::size_t>(columns);
         grid.first = hashed_;
-        if (grid.table) hashed_ += static_cast<std::size_t>(cells);
+        hashed_ += grid.rows * grid.columns;
     }
-    begin_.assign(hashed_ + (std::size_t{1} << (64 - shift_)) + 3, Index{0});
+    begin_.assign(hashed_ + (anyHashed ? std::size_t{1} << (64 - shift_) : 0) + 3, Index{0});
 }
 
 /// By buckets, and by index within them: counted, then placed.
@@ -157,18 +165,12 @@ void PairSweep::sort()
     layOut();
     for (Index part = 0; part < boxes_.size(); ++part) {
         const int which = classes_[part];
-        const FatBox& box = boxes_[part];
-        std::size_t bucket = which == kLast ? lastBucket() : lastBucket() + 1;
-        if (which < kLast) {
-            const Grid& grid = grids_[which];
-            const std::uint64_t row = lineOf(box.minY, grid.perRow), column = lineOf(box.minX, grid.perColumn);
-            if (grid.table) {
-                bucket = grid.first + static_cast<std::size_t>(row - grid.row) * grid.width() +
-                         static_cast<std::size_t>(column - grid.column);
-            } else {
-                cells_[part] = cellOf(which, row, column);
-                bucket = hashed_ + hashOf(cells_[part]);
-            }
+        std::size_t bucket = which == kAbsent ? lastBucket() + 1 : lastBucket();
+        const Grid& grid = grids_[which == kAbsent ? kLast : which];
+        if (grid.kind == Grid::Kind::Table) {
+            bucket = grid.first + grid.row(boxes_[part].minY) * grid.columns + grid.column(boxes_[part].minX);
+        } else if (grid.kind == Grid::Kind::Hashed) {
+            bucket = hashOf(cellOf(part));
         }
         buckets_[part] = static_cast<Index>(bucket);
         ++begin_[bucket];
@@ -178,11 +180,51 @@ void PairSweep::sort()
     for (auto part = static_cast<Index>(boxes_.size()); part-- > 0;) {
         const Index at = --begin_[buckets_[part]];
         sorted_[at] = part;
-        now_.set(at, boxes_[part]);
-        // Of what lies in pieces it is not known which of them met.
-        then_.set(at, pieceOf_[part] != 0 ? kNowhere : moved_[part] != 0 ? before_[part] : boxes_[part]);
         sortedReaches_[at] = reaches_[part];
+        setSlot(at, part);
     }
+    filled_ = true;
+}
+
+void PairSweep::setSlot(std::size_t slot, Index part)
+{
+    now_.set(slot, boxes_[part]);
+    // Of what lies in pieces it is not known which of them met.
+    then_.set(slot, pieceOf_[part] != 0 ? kNowhere : moved_[part] != 0 ? before_[part] : boxes_[part]);
+}
+
+std::size_t PairSweep::slotOf(Index part) const
+{
+    std::size_t slot = begin_[buckets_[part]];
+    while (sorted_[slot] != part) ++slot;
+    return slot;
+}
+
+/// Where few boxes have moved since the cells were filled, only these are brought up to date. False: they are not few.
+bool PairSweep::retouch()
+{
+    if (!filled_) return false;
+    Index moved[kFewMoved];
+    std::size_t count = 0, boxes = 0;
+    for (Index part = 0; part < moved_.size(); ++part) {
+        if (moved_[part] == 0) continue;
+        boxes += pieceOf_[part] == 0 ? 1 : pieces_[pieceOf_[part]].size();
+        if (boxes > kFewMoved || count == kFewMoved) return false;
+        moved[count++] = part;
+    }
+    then_ = now_;
+    for (std::size_t i = 1; i < long_.size(); ++i) setSlot(slotOf(long_[i]), long_[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+        setSlot(slotOf(moved[i]), moved[i]);
+        classes_[moved[i]] = kNoClass;  // when the cells are filled next
+    }
+    return true;
+}
+
+void PairSweep::begin()
+{
+    retouched_ = retouch();
+    if (!retouched_) sort();
 }
 
 void PairSweep::finish()
@@ -191,10 +233,24 @@ void PairSweep::finish()
     anyMoved_ = false;
 }
 
+/// How many stretches of cells are to be looked through for the box.
+std::uint64_t PairSweep::stretchesOf(const FatBox& box) const
+{
+    std::uint64_t count = 0;
+    for (int which = 0; which < kLast; ++which) {
+        const Grid& grid = grids_[which];
+        if (grid.kind == Grid::Kind::Table) count += grid.row(box.maxY) - grid.row(box.minY - cellSize(which)) + 1;
+        if (grid.kind != Grid::Kind::Hashed) continue;
+        const Lines l = hashedLines(box, which);
+        count += (l.bottom - l.top + 1) * (l.right - l.left + 1);
+    }
+    return count;
+}
+
 std::size_t PairSweep::bytes() const
 {
     return boxes_.capacity() * (2 * sizeof(FatBox) + 3 * sizeof(Index) + 10 * sizeof(float) + 2) +
-           begin_.capacity() * sizeof(Index) + cells_.capacity() * sizeof(std::uint64_t);
+           begin_.capacity() * sizeof(Index);
 }
 
 }  // namespace jet::physics

@@ -3,14 +3,10 @@
 // keeps within its box nothing is done (see docs/decisions/0045 and 0046).
 #pragma once
 
-#include "contact.hpp"
+#include "sift.hpp"
 
 #include <algorithm>
 #include <vector>
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace jet::physics {
 
@@ -36,6 +32,8 @@ class PairSweep {
 public:
     /// `typical`: units, the size of most parts; it decides how wide cells are.
     void resize(std::size_t parts, float typical);
+    /// With which instructions boxes are compared; the pairs do not depend on it.
+    void use(const Sieve& sieve) { sieve_ = &sieve; }
     std::size_t parts() const { return boxes_.size(); }
     const FatBox& box(Index part) const { return boxes_[part]; }
     const FatBox* boxes() const { return boxes_.data(); }
@@ -59,11 +57,17 @@ public:
     void noteMoves() { anyMoved_ = true; }
     bool anyMoved() const { return anyMoved_; }
     /// Pairs that were found before are to be found again.
-    void forget() { std::fill(before_.begin(), before_.end(), kNowhere); }
+    void forget()
+    {
+        std::fill(before_.begin(), before_.end(), kNowhere);
+        filled_ = false;
+    }
     /// The same for a part that is moved next.
     void forget(Index part)
     {
-        if (part < boxes_.size()) boxes_[part] = before_[part] = kNowhere, classes_[part] = kNoClass;
+        if (part >= boxes_.size()) return;
+        boxes_[part] = before_[part] = kNowhere, classes_[part] = kNoClass;
+        filled_ = false;
     }
 
     /// begin(), seek() of all parts, finish().
@@ -75,15 +79,21 @@ public:
         finish();
     }
     /// A sweep: begin, seek all parts, finish; then nothing counts as moved.
-    void begin() { sort(); }
+    void begin();
     /// Calls found(a, b) for each pair of boxes that meet, of which one was moved, and that did not meet before, if
     /// that one is of [first, last); different parts may be sought at once. Boxes of long parts meet before they do:
     /// their pairs come each time, even repeatedly.
     template <class Found>
     void seek(std::size_t first, std::size_t last, Found&& found) const
     {
-        for (auto part = static_cast<Index>(first); part < last; ++part)
-            if (moved_[part] != 0) meet(part, found);
+        for (auto part = static_cast<Index>(first); part < last; ++part) {
+            if (moved_[part] == 0) continue;
+            if (pieceOf_[part] == 0) {
+                meet(part, boxes_[part], found);
+            } else {
+                for (const FatBox& piece : pieces_[pieceOf_[part]]) meet(part, piece, found);
+            }
+        }
     }
     void finish();
 
@@ -106,27 +116,28 @@ private:
     /// has no bound, and no cells either.
     static constexpr int kClasses = 8, kLast = kClasses - 1;
     static constexpr std::uint8_t kNoClass = 255, kAbsent = kClasses;
-    static constexpr int kColumnsPerCell = 4;
-    static constexpr float kLonger = 3;
-    static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
+    static constexpr float kColumnsPerCell = 4;
+    static constexpr float kLonger = Sieve::kLonger;
     static constexpr FatBox kNowhere{3e38F, 3e38F, -3e38F, -3e38F};
 
     /// The cells of a class: a table from its first row and column on, narrow columns one after the other, so that a
-    /// part of a row is one stretch. Where what is in it lies too far apart, its cells are hashed instead.
+    /// part of a row is one stretch. Where what is in it lies too far apart, its cells are hashed instead. A class of
+    /// few has none: it is looked through with the last.
     struct Grid {
-        double perRow = 0, perColumn = 0;  // 1 / units
-        std::uint64_t row = 0, lastRow = 0, column = 0, lastColumn = 0;
+        enum class Kind : std::uint8_t { None, Table, Hashed } kind = Kind::None;
+        float perRow = 0, perColumn = 0;               // 1 / units
+        float minX = 0, minY = 0, maxX = 0, maxY = 0;  // of left upper corners
+        std::size_t rows = 0, columns = 0;
         std::size_t first = 0;  // bucket
         std::size_t members = 0;
-        float minX = 0, minY = 0, maxX = 0, maxY = 0;  // of left upper corners
-        bool table = false;
-        std::size_t width() const { return static_cast<std::size_t>(lastColumn - column + 1); }
-    };
-    /// Cells a box may find others in.
-    struct Lines {
-        std::uint64_t row, lastRow, column, lastColumn;
-        std::uint64_t rows() const { return lastRow < row ? 0 : lastRow - row + 1; }
-        std::uint64_t columns() const { return lastColumn < column ? 0 : lastColumn - column + 1; }
+
+        static std::size_t line(float from, float perLine, std::size_t lines)
+        {
+            return static_cast<std::size_t>(
+                static_cast<std::int64_t>(std::min(std::max(from * perLine, 0.0F), static_cast<float>(lines - 1))));
+        }
+        std::size_t row(float y) const { return line(y - minY, perRow, rows); }
+        std::size_t column(float x) const { return line(x - minX, perColumn, columns); }
     };
 
     /// Most boxes with their room are less than two and a half of the typical length high and wide.
@@ -135,7 +146,13 @@ private:
     {
         return static_cast<std::uint64_t>(which) << 56 | row << 28 | column;
     }
-    /// Which row or column: 28 bits. What lies beyond the last ones is in them.
+    std::uint64_t cellOf(Index part) const
+    {
+        const double perLine = perHashedLine(classes_[part]);
+        return cellOf(classes_[part], lineOf(boxes_[part].minY, perLine), lineOf(boxes_[part].minX, perLine));
+    }
+    double perHashedLine(int which) const { return 1 / static_cast<double>(cellSize(which)); }
+    /// Which row or column of hashed cells: 28 bits. What lies beyond the last ones is in them.
     static std::uint64_t lineOf(float at, double perLine)
     {
         constexpr double kMost = (1 << 27) - 1;
@@ -145,88 +162,125 @@ private:
     }
     std::size_t hashOf(std::uint64_t cell) const
     {
-        return static_cast<std::size_t>(cell * 0x9e3779b97f4a7c15ULL >> shift_);
+        return hashed_ + static_cast<std::size_t>(cell * 0x9e3779b97f4a7c15ULL >> shift_);
     }
     std::size_t lastBucket() const { return begin_.size() - 3; }
     std::uint8_t classOf(const FatBox&) const;
     void layOut();
-    Lines linesFor(const Grid& grid, float size, const FatBox& box) const
-    {
-        Lines l{lineOf(box.minY - size, grid.perRow), lineOf(box.maxY, grid.perRow),
-                lineOf(box.minX - size, grid.perColumn), lineOf(box.maxX, grid.perColumn)};
-        if (grid.table) {
-            l.row = std::max(l.row, grid.row), l.lastRow = std::min(l.lastRow, grid.lastRow);
-            l.column = std::max(l.column, grid.column), l.lastColumn = std::min(l.lastColumn, grid.lastColumn);
-        }
-        return l;
-    }
     void sort();
+    bool retouch();
+    std::size_t slotOf(Index part) const;
+    void setSlot(std::size_t slot, Index part);
     bool meetsPieces(Index part, const FatBox&) const;
 
+    /// What a box may meet lies in stretches of sorted_, which are looked through some at a time.
     template <class Found>
-    void meet(Index part, Found&& found) const
-    {
-        if (pieceOf_[part] == 0) return meet(part, boxes_[part], found);
-        for (const FatBox& piece : pieces_[pieceOf_[part]]) meet(part, piece, found);
-    }
+    class Search {
+    public:
+        Search(const PairSweep& sweep, Index part, const FatBox& box, Found& found)
+            : sweep_(sweep), part_(part),
+              found_(found), box_{box, sweep.pieceOf_[part] != 0 ? kNowhere : sweep.before_[part], sweep.reaches_[part]}
+        {
+        }
+        void add(std::size_t first, std::size_t last)
+        {
+            for (; first < last; first += Sieve::kMost) {
+                const std::size_t length = std::min(last - first, Sieve::kMost);
+                if (count_ == kStretches || length_ + length > Sieve::kMost) look();
+                stretches_[count_++] = {static_cast<Index>(first), static_cast<Index>(first + length)};
+                length_ += length;
+            }
+        }
+        /// Those of one cell, as others may be in its bucket.
+        void addHashed(std::uint64_t cell)
+        {
+            look();
+            const std::size_t bucket = sweep_.hashOf(cell);
+            for (std::size_t at = sweep_.begin_[bucket]; at < sweep_.begin_[bucket + 1]; at += Sieve::kMost) {
+                stretches_[count_++] = {static_cast<Index>(at),
+                                        std::min(static_cast<Index>(at + Sieve::kMost), sweep_.begin_[bucket + 1])};
+                look([&](Index other) { return sweep_.cellOf(other) == cell; });
+            }
+        }
+        void look()
+        {
+            look([](Index) { return true; });
+        }
+
+    private:
+        static constexpr std::size_t kStretches = 32;
+
+        template <class Counts>
+        void look(Counts&& counts)
+        {
+            Index near[Sieve::kMost + Sieve::kPairs];
+            const std::size_t hits = sweep_.sieve_->near(sweep_.boxesInCells(), box_, stretches_, count_, near);
+            for (std::size_t i = 0; i < hits; ++i) {
+                const Index other = sweep_.sorted_[near[i]];
+                if (other == part_ || (sweep_.moved_[other] != 0 && other < part_) || !counts(other)) continue;
+                if (sweep_.pieceOf_[other] != 0 && !sweep_.meetsPieces(other, box_.now)) continue;
+                found_(std::min(part_, other), std::max(part_, other));
+            }
+            count_ = length_ = 0;
+        }
+
+        const PairSweep& sweep_;
+        Index part_;
+        Found& found_;
+        SoughtBox box_;
+        Stretch stretches_[kStretches];
+        std::size_t count_ = 0, length_ = 0;
+    };
+
     template <class Found>
     void meet(Index part, const FatBox& box, Found&& found) const
     {
-        Lines lines[kLast];
-        std::uint64_t stretches = 0;
-        for (int which = 0; which < kLast; ++which) {
-            const Grid& grid = grids_[which];
-            if (grid.members == 0) continue;
-            const Lines& l = lines[which] = linesFor(grid, cellSize(which), box);
-            stretches += l.rows() * (grid.table ? 1 : l.columns());
+        Search<std::remove_reference_t<Found>> search(*this, part, box, found);
+        // As many stretches as boxes: all are looked at.
+        if (retouched_ || 4 * stretchesOf(box) > boxes_.size() + 64) {
+            search.add(0, boxes_.size());
+        } else {
+            for (int which = 0; which < kLast; ++which) {
+                if (grids_[which].kind == Grid::Kind::Table) meetTable(box, which, search);
+                if (grids_[which].kind == Grid::Kind::Hashed) meetHashed(box, which, search);
+            }
+            search.add(begin_[lastBucket()], begin_[lastBucket() + 1]);
         }
-        // As many as boxes: all are looked at.
-        if (4 * stretches > boxes_.size() + 64) return scan(part, box, 0, boxes_.size(), kUnknown, found);
-        for (int which = 0; which < kLast; ++which)
-            if (grids_[which].members > 0) meet(part, box, which, lines[which], found);
-        scan(part, box, begin_[lastBucket()], begin_[lastBucket() + 1], kUnknown, found);
+        search.look();
     }
-    template <class Found>
-    void meet(Index part, const FatBox& box, int which, const Lines& l, Found&& found) const
+    std::uint64_t stretchesOf(const FatBox&) const;
+    template <class Search>
+    void meetTable(const FatBox& box, int which, Search& search) const
     {
         const Grid& grid = grids_[which];
-        if (grid.table) {
-            if (l.columns() == 0) return;
-            for (std::uint64_t row = l.row; row <= l.lastRow; ++row) {
-                const std::size_t start = grid.first + static_cast<std::size_t>(row - grid.row) * grid.width();
-                scan(part, box, begin_[start + static_cast<std::size_t>(l.column - grid.column)],
-                     begin_[start + static_cast<std::size_t>(l.lastColumn - grid.column) + 1], kUnknown, found);
-            }
-            return;
-        }
-        for (std::uint64_t row = l.row; row <= l.lastRow; ++row) {
-            for (std::uint64_t column = l.column; column <= l.lastColumn; ++column) {
-                const std::uint64_t cell = cellOf(which, row, column);
-                const std::size_t bucket = hashed_ + hashOf(cell);
-                scan(part, box, begin_[bucket], begin_[bucket + 1], cell, found);
-            }
+        const float size = cellSize(which);
+        const std::size_t left = grid.column(box.minX - size), right = grid.column(box.maxX) + 1;
+        const std::size_t bottom = grid.row(box.maxY);
+        for (std::size_t row = grid.row(box.minY - size); row <= bottom; ++row) {
+            const Index* cells = &begin_[grid.first + row * grid.columns];
+            search.add(cells[left], cells[right]);
         }
     }
-    /// `cell`: the one that is meant, as others may be in its bucket; kUnknown: any.
-    template <class Found>
-    void scan(Index part, const FatBox& box, std::size_t first, std::size_t last, std::uint64_t cell,
-              Found&& found) const
+    template <class Search>
+    void meetHashed(const FatBox& box, int which, Search& search) const
     {
-        const FatBox& was = pieceOf_[part] != 0 ? kNowhere : before_[part];
-        for (std::size_t j = first; j < last; j += 4) {
-            unsigned hits = near(now_, j, box);
-            if (last - j < 4) hits &= (1U << (last - j)) - 1;
-            if (hits == 0) continue;
-            hits &= ~near(then_, j, was) | longer(j, part);
-            for (; hits != 0; hits &= hits - 1) {
-                const Index other = sorted_[j + static_cast<std::size_t>(__builtin_ctz(hits))];
-                if (other == part || (moved_[other] != 0 && other < part)) continue;
-                if (cell != kUnknown && cells_[other] != cell) continue;
-                if (pieceOf_[other] != 0 && !meetsPieces(other, box)) continue;
-                found(std::min(part, other), std::max(part, other));
-            }
-        }
+        const Lines l = hashedLines(box, which);
+        for (std::uint64_t row = l.top; row <= l.bottom; ++row)
+            for (std::uint64_t column = l.left; column <= l.right; ++column)
+                search.addHashed(cellOf(which, row, column));
     }
+    /// Hashed cells a box may find others in.
+    struct Lines {
+        std::uint64_t top, bottom, left, right;
+    };
+    Lines hashedLines(const FatBox& box, int which) const
+    {
+        const float size = cellSize(which);
+        const double perLine = perHashedLine(which);
+        return {lineOf(box.minY - size, perLine), lineOf(box.maxY, perLine), lineOf(box.minX - size, perLine),
+                lineOf(box.maxX, perLine)};
+    }
+
     /// Boxes in the order of sorted_, padded by some at infinity.
     struct Sides {
         std::vector<float> minX, minY, maxX, maxY;
@@ -236,51 +290,23 @@ private:
             minX[at] = box.minX, maxX[at] = box.maxX, minY[at] = box.minY, maxY[at] = box.maxY;
         }
     };
-    /// A bit for each of four boxes that meets the box.
-    static unsigned near(const Sides& boxes, std::size_t first, const FatBox& box)
+    BoxesInCells boxesInCells() const
     {
-#if defined(__SSE2__)
-        const __m128 x = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&boxes.minX[first]), _mm_set1_ps(box.maxX)),
-                                    _mm_cmpge_ps(_mm_loadu_ps(&boxes.maxX[first]), _mm_set1_ps(box.minX)));
-        const __m128 y = _mm_and_ps(_mm_cmple_ps(_mm_loadu_ps(&boxes.minY[first]), _mm_set1_ps(box.maxY)),
-                                    _mm_cmpge_ps(_mm_loadu_ps(&boxes.maxY[first]), _mm_set1_ps(box.minY)));
-        return static_cast<unsigned>(_mm_movemask_ps(_mm_and_ps(x, y)));
-#else
-        unsigned bits = 0;
-        for (std::size_t k = first; k < first + 4; ++k)
-            bits |= static_cast<unsigned>((boxes.minX[k] <= box.maxX) & (boxes.maxX[k] >= box.minX) &
-                                          (boxes.minY[k] <= box.maxY) & (boxes.maxY[k] >= box.minY))
-                    << (k - first);
-        return bits;
-#endif
-    }
-    /// A bit for each of four parts that is much longer than the part, or the part than it.
-    unsigned longer(std::size_t first, Index part) const
-    {
-        const float reach = reaches_[part];
-#if defined(__SSE2__)
-        const __m128 others = _mm_loadu_ps(&sortedReaches_[first]), factor = _mm_set1_ps(kLonger);
-        return static_cast<unsigned>(
-            _mm_movemask_ps(_mm_or_ps(_mm_cmpgt_ps(others, _mm_set1_ps(kLonger * reach)),
-                                      _mm_cmplt_ps(_mm_mul_ps(factor, others), _mm_set1_ps(reach)))));
-#else
-        unsigned bits = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const float other = sortedReaches_[first + k];
-            bits |= static_cast<unsigned>((other > kLonger * reach) | (kLonger * other < reach)) << k;
-        }
-        return bits;
-#endif
+        return {now_.minX.data(),  now_.minY.data(),  now_.maxX.data(),  now_.maxY.data(),     then_.minX.data(),
+                then_.minY.data(), then_.maxX.data(), then_.maxY.data(), sortedReaches_.data()};
     }
 
+    const Sieve* sieve_ = &sse2::pairSieve;
     std::vector<FatBox> boxes_, before_;          // [parts] before they were moved
     std::vector<Index> pieceOf_;                  // [parts] 0: it is in one piece
     std::vector<std::vector<FatBox>> pieces_{1};  // of long parts
+    std::vector<Index> long_{0};                  // [pieces_] whose they are
     std::vector<std::uint8_t> moved_;
     bool anyMoved_ = false;
+    bool filled_ = false;     // are the cells those of the last sweep, but for what was moved since?
+    bool retouched_ = false;  // only the boxes were brought up to date, not the cells: what is sought is sought in all
     float typical_ = 1;
     std::vector<std::uint8_t> classes_;  // [parts]
-    std::vector<std::uint64_t> cells_;   // [parts] of those that are hashed; nothing as long as none is
     std::vector<Index> buckets_;         // [parts]
     std::vector<Index> begin_;           // [buckets + 1]
     std::size_t hashed_ = 0;             // first bucket of hashed cells

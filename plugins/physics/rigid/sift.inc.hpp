@@ -27,7 +27,32 @@ std::uint32_t stayApart(const SiftInput& in, const Index* which, float* gaps)
     return bitsOf((gap > in.speculative * slop + travel) & meeting(in.boxes, c));
 }
 
+std::size_t near(const BoxesInCells& boxes, const SoughtBox& box, const Stretch* stretches, std::size_t count,
+                 Index* hits)
+{
+    const Eight minX = all(box.now.minX), minY = all(box.now.minY), maxX = all(box.now.maxX), maxY = all(box.now.maxY);
+    const Eight wasMinX = all(box.was.minX), wasMinY = all(box.was.minY), wasMaxX = all(box.was.maxX),
+                wasMaxY = all(box.was.maxY);
+    const Eight reach = all(box.reach), farther = all(Sieve::kLonger * box.reach);
+    std::size_t found = 0;
+    for (const Stretch* s = stretches; s != stretches + count; ++s) {
+        for (Index at = s->first; at < s->last; at += 8) {
+            const Bits meet = (load(boxes.minX + at) <= maxX) & (minX <= load(boxes.maxX + at)) &
+                              (load(boxes.minY + at) <= maxY) & (minY <= load(boxes.maxY + at));
+            std::uint32_t bits = bitsOf(meet);
+            if (s->last - at < 8) bits &= (1U << (s->last - at)) - 1;
+            if (bits == 0) continue;
+            const Bits met = (load(boxes.wasMinX + at) <= wasMaxX) & (wasMinX <= load(boxes.wasMaxX + at)) &
+                             (load(boxes.wasMinY + at) <= wasMaxY) & (wasMinY <= load(boxes.wasMaxY + at));
+            const Eight others = load(boxes.reach + at);
+            bits &= ~bitsOf(met & ~((others > farther) | (others * Sieve::kLonger < reach)));
+            for (; bits != 0; bits &= bits - 1) hits[found++] = at + static_cast<Index>(__builtin_ctz(bits));
+        }
+    }
+    return found;
+}
+
 }  // namespace
 
 extern const Sieve pairSieve;
-const Sieve pairSieve{stayApart};
+const Sieve pairSieve{stayApart, near};

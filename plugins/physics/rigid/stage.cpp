@@ -197,9 +197,7 @@ StepShape RigidStage::shapeOf(const WorldSettings& settings, double dt, bool lar
                                            : std::clamp(static_cast<int>(std::ceil(dt * kContactRate - 1e-9)), 1, 4096);
     shape.h = dt / shape.substeps;
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * shape.h;
-    shape.choice = settings.simd == Simd::Automatic ? KernelChoice::Best
-                   : settings.simd == Simd::Avx2    ? KernelChoice::Avx2
-                                                    : KernelChoice::Sse2;
+    shape.choice = choiceOf(settings);
     return shape;
 }
 
