@@ -207,18 +207,70 @@ void warmContacts(BodyState<Real>* bodies, const ContactLanes<Real>* groups, con
     }
 }
 
+/// The two points of a group's contacts, one after the other. What the first is given changes the speed of the second
+/// by the inverse mass they share, so the bodies need to be pushed but once, by both; a pass waits for little else than
+/// such chains of results.
 template <class Real>
-JET_INLINE void relaxNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& zero,
-                             const StepConstants<Real>& step)
-{
-    for (auto& p : c.points) {
-        const Lanes<Real> bias = most(p.now, zero) * step.inverseH;
-        const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
-        const Lanes<Real> impulse = most(p.impulse - p.mass * (speed + bias), zero);
-        const Lanes<Real> change = impulse - p.impulse;
-        p.impulse = impulse;
-        push<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB, change);
+struct Pair {
+    const BodyLanes<Real>&a, &b;
+    const Lanes<Real>&leverA0, &leverB0, &leverA1, &leverB1;
+
+    template <class Point>
+    JET_INLINE Pair(const BodyLanes<Real>& bodyA, const BodyLanes<Real>& bodyB, const Point (&points)[2])
+        : a(bodyA), b(bodyB), leverA0(points[0].leverA), leverB0(points[0].leverB), leverA1(points[1].leverA),
+          leverB1(points[1].leverB)
+    {
     }
+    /// Speeds of the points, where the centres have the speed `linear`.
+    JET_INLINE Lanes<Real> first(const Lanes<Real>& linear) const
+    {
+        return linear + (leverB0 * b.spin - leverA0 * a.spin);
+    }
+    JET_INLINE Lanes<Real> second(const Lanes<Real>& linear, const Lanes<Real>& givenToFirst) const
+    {
+        const Lanes<Real> shared =
+            a.invMass + b.invMass + a.invMass * (leverA0 * leverA1) + b.invMass * (leverB0 * leverB1);
+        return linear + (leverB1 * b.spin - leverA1 * a.spin) + shared * givenToFirst;
+    }
+    static JET_INLINE void turn(BodyLanes<Real>& a, BodyLanes<Real>& b, const Pair& p, const Lanes<Real>& first,
+                                const Lanes<Real>& second)
+    {
+        a.spin -= a.invMass * (p.leverA0 * first + p.leverA1 * second);
+        b.spin += b.invMass * (p.leverB0 * first + p.leverB1 * second);
+    }
+};
+
+/// Gives the points what `wanted` says of a point and its speed, but never pulls; the sum of the changes.
+template <class Real, class Wanted>
+JET_INLINE Lanes<Real> pushNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
+                                   const Lanes<Real>& linear, const Lanes<Real>& zero, const Wanted& wanted)
+{
+    const Pair<Real> pair(a, b, c.points);
+    const auto give = [&](auto& p, const Lanes<Real>& speed) JET_INLINED {
+        const Lanes<Real> impulse = most(wanted(p, speed), zero), change = impulse - p.impulse;
+        p.impulse = impulse;
+        return change;
+    };
+    const Lanes<Real> first = give(c.points[0], pair.first(linear));
+    const Lanes<Real> second = give(c.points[1], pair.second(linear, first));
+    Pair<Real>::turn(a, b, pair, first, second);
+    return first + second;
+}
+
+template <class Real>
+JET_INLINE Lanes<Real> relaxNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
+                                    const Lanes<Real>& linear, const Lanes<Real>& zero, const StepConstants<Real>& step)
+{
+    return pushNormals<Real>(c, a, b, linear, zero, [&](const auto& p, const Lanes<Real>& speed) JET_INLINED {
+        return p.impulse - p.mass * (speed + most(p.now, zero) * step.inverseH);
+    });
+}
+
+template <class Real>
+JET_INLINE void shove(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x, const Lanes<Real>& y)
+{
+    a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y;
+    b.velocityX += b.invMass * x, b.velocityY += b.invMass * y;
 }
 
 template <class Real>
@@ -234,18 +286,15 @@ void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::siz
         const Lanes<Real> massScale = choose<Real>(still, all(step.still.massScale), all(step.moving.massScale));
         const Lanes<Real> impulseScale =
             choose<Real>(still, all(step.still.impulseScale), all(step.moving.impulseScale));
-        for (auto& p : c.points) {
-            const Lanes<Real> s = p.now;
-            const Mask<Real> apart = s > zero;
-            const Lanes<Real> bias = choose<Real>(apart, s * step.inverseH, most(rate * s, -c.mostPush));
-            const Lanes<Real> speed = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
-            const Lanes<Real> wanted = -p.mass * choose<Real>(apart, one, massScale) * (speed + bias) -
-                                       choose<Real>(apart, zero, impulseScale) * p.impulse;
-            const Lanes<Real> impulse = most(p.impulse + wanted, zero);
-            const Lanes<Real> change = impulse - p.impulse;
-            p.impulse = impulse;
-            push<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB, change);
-        }
+        const Lanes<Real> linear = c.normalX * (b.velocityX - a.velocityX) + c.normalY * (b.velocityY - a.velocityY);
+        const Lanes<Real> given =
+            pushNormals<Real>(c, a, b, linear, zero, [&](const auto& p, const Lanes<Real>& speed) JET_INLINED {
+                const Mask<Real> apart = p.now > zero;
+                const Lanes<Real> bias = choose<Real>(apart, p.now * step.inverseH, most(rate * p.now, -c.mostPush));
+                const Lanes<Real> kept = p.impulse - choose<Real>(apart, zero, impulseScale) * p.impulse;
+                return kept - p.mass * choose<Real>(apart, one, massScale) * (speed + bias);
+            });
+        shove<Real>(a, b, c.normalX * given, c.normalY * given);
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
@@ -263,7 +312,9 @@ void calmContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size
         const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
         for (auto& p : c.points) p.now = p.separation + moved + p.leverB * moveB.sweep - p.leverA * moveA.sweep;
-        relaxNormals<Real>(c, a, b, zero, step);
+        const Lanes<Real> linear = c.normalX * (b.velocityX - a.velocityX) + c.normalY * (b.velocityY - a.velocityY);
+        const Lanes<Real> given = relaxNormals<Real>(c, a, b, linear, zero, step);
+        shove<Real>(a, b, c.normalX * given, c.normalY * given);
         scatter(bodies, c.a, a);
         scatter(bodies, c.b, b);
     }
@@ -278,17 +329,23 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
         ContactLanes<Real>& c = groups[g];
         FrictionLanes<Real>& f = frictions[g];
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const Lanes<Real> tangentX = -c.normalY, tangentY = c.normalX;
-        for (int k = 0; k < 2; ++k) {
+        const Lanes<Real> towardsX = b.velocityX - a.velocityX, towardsY = b.velocityY - a.velocityY;
+        // The tangent is the normal turned to the left. Friction does not change speeds of centres along the normal.
+        const Lanes<Real> along = c.normalX * towardsY - c.normalY * towardsX;
+        const Lanes<Real> linear = c.normalX * towardsX + c.normalY * towardsY;
+        const Pair<Real> pair(a, b, f.points);
+        const auto rub = [&](int k, const Lanes<Real>& slide) JET_INLINED {
             auto& q = f.points[k];
-            const Lanes<Real> slide = speedAlong<Real>(a, b, tangentX, tangentY, q.leverA, q.leverB);
             const Lanes<Real> limit = f.friction * c.points[k].impulse;
             const Lanes<Real> impulse = least(most(q.impulse - q.mass * slide, -limit), limit);
             const Lanes<Real> change = impulse - q.impulse;
             q.impulse = impulse;
-            push<Real>(a, b, tangentX, tangentY, q.leverA, q.leverB, change);
-        }
-        relaxNormals<Real>(c, a, b, zero, step);
+            return change;
+        };
+        const Lanes<Real> first = rub(0, pair.first(along)), second = rub(1, pair.second(along, first));
+        Pair<Real>::turn(a, b, pair, first, second);
+        const Lanes<Real> rubbed = first + second, given = relaxNormals<Real>(c, a, b, linear, zero, step);
+        shove<Real>(a, b, c.normalX * given - c.normalY * rubbed, c.normalY * given + c.normalX * rubbed);
         for (int k = 0; k < 2; ++k)
             f.points[k].total = step.totalKept * f.points[k].total + step.totalAdded * c.points[k].impulse;
         scatter(bodies, c.a, a);

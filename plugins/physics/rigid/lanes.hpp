@@ -9,7 +9,8 @@
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-#define JET_INLINE inline __attribute__((always_inline))
+#define JET_INLINED __attribute__((always_inline))
+#define JET_INLINE inline JET_INLINED
 
 namespace jet::physics {
 
