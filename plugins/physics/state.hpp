@@ -126,7 +126,6 @@ struct BodyReadings {
     std::vector<double> angle, omega;
     std::vector<Box> bounds;
     std::vector<Index> firstPoint{0};  // [bodies + 1]
-    std::vector<Vec2> points;          // only there; else those of the state
 };
 
 /// Room that is used again each step. Not thread-local: a destructor of a thread would keep the library in memory.

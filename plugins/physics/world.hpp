@@ -170,8 +170,10 @@ private:
     soft::Tears tears_;
     RigidStage rigid_;
     Queries queries_;
-    bool lean_ = true;                     // nothing has needed the points and walls of bodies of one shape
-    Index told_ = 0;                       // then: first bodies of which outlines are told as they are now
+    bool lean_ = true;           // nothing has needed the points and walls of bodies of one shape
+    Index told_ = 0;             // then: first bodies of which outlines are told as they are now,
+    std::span<Box> toldBounds_;  // in memory of steps
+    std::span<Vec2> toldPoints_;
     bool settled_ = false;                 // has it been stepped?
     bool stale_ = false;                   // points and readings are older than the nodes
     bool untold_ = false;                  // so are the reports

@@ -12,8 +12,13 @@ BodyStates World::bodies() const
     if (lean_) {
         const_cast<World*>(this)->tellOutlines();  // caches of what the nodes say
         const Nodes& nodes = state_.nodes;
-        return {nodes.position,  nodes.angle.values(), nodes.velocity, nodes.omega.values(),
-                readings.bounds, readings.firstPoint,  readings.points};
+        return {nodes.position,
+                nodes.angle.values(),
+                nodes.velocity,
+                nodes.omega.values(),
+                toldBounds_.first(bodyCount()),
+                readings.firstPoint,
+                toldPoints_.first(readings.firstPoint.back())};
     }
     refresh();
     return {readings.position, readings.angle,      readings.velocity,     readings.omega,

@@ -68,33 +68,38 @@ void World::copyOutline(BodyRecord& body, const Points& points, const Walls& wal
     }
 }
 
-/// Where nothing goes by points and walls: bounds and points of all bodies, for who looks at them.
+/// Where nothing goes by points and walls: bounds and points of all bodies, for who looks at them. They lie where steps
+/// have what they work on, as the next step ends their time.
 void World::tellOutlines()
 {
-    BodyReadings& readings = state_.readings;
+    std::vector<Index>& first = state_.readings.firstPoint;
     const std::size_t count = state_.bodies.size();
-    makeRoom(count - readings.bounds.size(), readings.bounds, readings.firstPoint);
-    for (auto handle = static_cast<Index>(readings.bounds.size()); handle < count; ++handle) {
+    makeRoom(count + 1 - first.size(), first);
+    for (auto handle = static_cast<Index>(first.size() - 1); handle < count; ++handle) {
         const BodyRecord& body = state_.bodies[handle];
-        const Index points = body.isLean() ? ringSizeOf(rigid_.onlyPart(handle)) : body.points.count;
-        readings.bounds.emplace_back();
-        readings.firstPoint.push_back(readings.firstPoint.back() + points);
+        first.push_back(first.back() + (body.isLean() ? ringSizeOf(rigid_.onlyPart(handle)) : body.points.count));
     }
-    makeRoom(readings.firstPoint.back() - readings.points.size(), readings.points);
-    readings.points.resize(readings.firstPoint.back());
+    if (told_ == 0 || count > toldBounds_.size() || first.back() > toldPoints_.size()) {
+        // Who looks after each body that is added is not told all of them each time.
+        const auto room = [&](std::size_t needed) { return told_ == 0 ? needed : needed + needed / 2; };
+        const std::size_t bounds = room(count), points = room(first.back());
+        rigid_.arena().reset(Arena::sizeOf<Box>(bounds) + Arena::sizeOf<Vec2>(points));
+        toldBounds_ = rigid_.arena().take<Box>(bounds), toldPoints_ = rigid_.arena().take<Vec2>(points);
+        told_ = 0;
+    }
     for (; told_ < count; ++told_) tellOutline(told_);
 }
 
 void World::tellOutline(Index handle)
 {
-    const Index first = state_.readings.firstPoint[handle];
+    Vec2* points = toldPoints_.data() + state_.readings.firstPoint[handle];
     Box bounds;
     eachPoint(handle, [&](Index i, const Vec2& at) {
-        state_.readings.points[first + i] = at;
+        points[i] = at;
         bounds.extend(at);
     });
     if (bounds.isNull()) bounds.extend(state_.nodes.position[state_.bodies[handle].nodes.first]);
-    state_.readings.bounds[handle] = bounds;
+    toldBounds_[handle] = bounds;
 }
 
 /// Calls visit(index, at) for the points of the body's outline, where they are now.

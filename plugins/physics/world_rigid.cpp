@@ -31,7 +31,6 @@ void World::stepSimple(double dt)
     pushed_ = false;
     contacts_.points.clear();
     stale_ = untold_ = true;
-    told_ = 0;
 }
 
 void World::moveKinematic(double h)

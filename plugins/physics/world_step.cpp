@@ -36,9 +36,10 @@ void World::step(double dt)
 {
     requireFinite("the time step", {dt});
     if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
-    if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom();
+    if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), told_ = 0;
     rememberTouches();
     if (skipStep()) return;
+    told_ = 0;
     stats_ = StepStats();
     islandsKnown_ = false;
     queries_.outdate();
@@ -107,7 +108,6 @@ void World::stepPart(double dt)
     if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
     if (!lean_) updateReadings(state_);
-    told_ = 0;
     untold_ = true;
     cutTorn();
 }

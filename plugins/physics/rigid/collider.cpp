@@ -89,7 +89,7 @@ void Collider::releaseAwake()
 }
 
 void Collider::find(const State& state, const WorldSettings& settings, double dt, StepStats& stats, Pool& pool,
-                    const Domains& domains)
+                    Arena& arena, const Domains& domains)
 {
     const auto start = std::chrono::steady_clock::now();
     if (typical_ == 0 && !parts_.empty()) measure();
@@ -117,7 +117,7 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
         if (fitBoxes(body, dt)) left.store(true, std::memory_order_relaxed);
     });
     if (left) sweep_.noteMoves();
-    findPairs(settings, pool);
+    findPairs(settings, pool, arena);
     hits_.assign(contacts_.size(), 0);
     stats.broadPhaseMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -322,11 +322,11 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
     }
 }
 
-void Collider::findPairs(const WorldSettings& settings, Pool& pool)
+void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena)
 {
     if (!sweep_.anyMoved()) return;
     sweep_.use(sieve(choiceOf(settings)));
-    sweep_.begin();
+    sweep_.begin(arena);
     const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
     if (foundBy_.size() < blocks) foundBy_.resize(blocks);
     pool.run(blocks, [&](std::size_t block) {
@@ -339,7 +339,7 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool)
             found.emplace_back(a, b);
         });
     });
-    sweep_.finish();
+    sweep_.finish(arena);
     found_.clear();
     for (std::size_t block = 0; block < blocks; ++block)
         found_.insert(found_.end(), foundBy_[block].begin(), foundBy_[block].end());

@@ -42,10 +42,10 @@ public:
     bool restless() const { return disturbed_ || rearranged_ || !welded_ || drift_.size() != bodies_.size(); }
 
     /// Where bodies are and which pairs may meet in the coming dt seconds.
-    void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&, const Domains&);
+    void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&, Arena&, const Domains&);
     /// After update(): bodies that fast ones are going to hit may come farther than they know; they are given more
     /// room, and what they meet in it is to be updated too. False: there are none.
-    bool expectHits(const State&, const WorldSettings&, double dt, Pool&);
+    bool expectHits(const State&, const WorldSettings&, double dt, Pool&, Arena&);
 
     /// Is the pair to be looked at in this step?
     bool due(const RigidContact& c) const { return c.due || drift_[c.bodyA] + drift_[c.bodyB] > c.slop; }
@@ -154,7 +154,7 @@ private:
     FatBox withAhead(FatBox, const Pose&, double dt) const;
     void fitPieces(std::vector<FatBox>&, Index part, const Pose&, float room, double dt) const;
     void fitBox(Index part, const Pose&, float room, double dt);
-    void findPairs(const WorldSettings&, Pool&);
+    void findPairs(const WorldSettings&, Pool&, Arena&);
     void addPair(Index partA, Index partB, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
     bool surprise(Index body, float gain, double dt);

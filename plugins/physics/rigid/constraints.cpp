@@ -72,7 +72,7 @@ typename Solver<Real>::Block& Solver<Real>::blockAt(std::size_t index)
 template <class Real>
 void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve)
 {
-    drifts_.resize(domains_.slotCount());
+    if (drifts_.empty()) drifts_ = arena_->take<float>(domains_.slotCount());
     drifts_[0] = collider.drifts()[0];
     domains_.eachBody(*pool_, [&](Index body, Index slot) { drifts_[slot] = collider.drifts()[body]; });
     std::size_t count = 0;

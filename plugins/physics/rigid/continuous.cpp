@@ -67,7 +67,7 @@ float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& 
     return t / dtf;
 }
 
-bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt, Pool& pool)
+bool Collider::expectHits(const State& state, const WorldSettings& settings, double dt, Pool& pool, Arena& arena)
 {
     if (!fast_) return false;
     bool grew = false;
@@ -88,7 +88,7 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     }
     if (!grew) return false;
     settleDrifts();
-    findPairs(settings, pool);
+    findPairs(settings, pool, arena);
     return true;
 }
 

@@ -71,8 +71,8 @@ void Solver<Real>::divide(Collider& collider, const State& state, const std::vec
         moveToNodes(collider);
         bordersThen_ = borderContacts();
     }
-    states_.resize(domains_.slotCount()), pushes_.resize(domains_.slotCount());
-    states_[0] = BodyState<Real>(), pushes_[0] = BodyPush<Real>();
+    if (states_.size() != domains_.slotCount()) states_ = arena_->take<BodyState<Real>>(domains_.slotCount());
+    states_[0] = BodyState<Real>();
 }
 
 /// Constraints go to where their bodies are now, in the order of their colours.

@@ -79,10 +79,13 @@ void KeySet::grow()
     }
 }
 
-void PairSweep::Sides::resize(std::size_t count)
+void PairSweep::Sides::lay(std::span<float> room)
 {
-    for (auto* list : {&minX, &minY, &maxX, &maxY}) list->resize(count + Sieve::kPairs);
-    std::fill(minX.begin() + static_cast<std::ptrdiff_t>(count), minX.end(), std::numeric_limits<float>::infinity());
+    const std::size_t each = room.size() / 4;
+    minX = room.first(each), minY = room.subspan(each, each), maxX = room.subspan(2 * each, each);
+    maxY = room.last(each);
+    for (auto* list : {&minX, &minY, &maxX, &maxY})
+        std::fill(list->end() - Sieve::kPairs, list->end(), std::numeric_limits<float>::infinity());
 }
 
 void PairSweep::resize(std::size_t parts, float typical)
@@ -97,7 +100,8 @@ void PairSweep::resize(std::size_t parts, float typical)
     classes_.resize(parts, kNoClass), buckets_.resize(parts), sorted_.resize(parts);
     shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
     reaches_.resize(parts, 0), sortedReaches_.resize(parts + Sieve::kPairs);
-    now_.resize(parts), then_.resize(parts);
+    room_.resize(Sides::roomFor(parts));
+    now_.lay(room_);
 }
 
 void PairSweep::setLong(Index part)
@@ -212,7 +216,10 @@ bool PairSweep::retouch()
         if (boxes > kFewMoved || count == kFewMoved) return false;
         moved[count++] = part;
     }
-    then_ = now_;
+    std::copy(now_.minX.begin(), now_.minX.end(), then_.minX.begin());
+    std::copy(now_.minY.begin(), now_.minY.end(), then_.minY.begin());
+    std::copy(now_.maxX.begin(), now_.maxX.end(), then_.maxX.begin());
+    std::copy(now_.maxY.begin(), now_.maxY.end(), then_.maxY.begin());
     for (std::size_t i = 1; i < long_.size(); ++i) setSlot(slotOf(long_[i]), long_[i]);
     for (std::size_t i = 0; i < count; ++i) {
         setSlot(slotOf(moved[i]), moved[i]);
@@ -221,14 +228,17 @@ bool PairSweep::retouch()
     return true;
 }
 
-void PairSweep::begin()
+void PairSweep::begin(Arena& arena)
 {
+    mark_ = arena.mark();
+    then_.lay(arena.take<float>(Sides::roomFor(parts())));
     retouched_ = retouch();
     if (!retouched_) sort();
 }
 
-void PairSweep::finish()
+void PairSweep::finish(Arena& arena)
 {
+    arena.release(mark_);
     std::fill(moved_.begin(), moved_.end(), std::uint8_t{0});
     anyMoved_ = false;
 }
@@ -249,8 +259,8 @@ std::uint64_t PairSweep::stretchesOf(const FatBox& box) const
 
 std::size_t PairSweep::bytes() const
 {
-    return boxes_.capacity() * (2 * sizeof(FatBox) + 3 * sizeof(Index) + 10 * sizeof(float) + 2) +
-           begin_.capacity() * sizeof(Index);
+    return boxes_.capacity() * (2 * sizeof(FatBox) + 3 * sizeof(Index) + 2 * sizeof(float) + 2) +
+           room_.capacity() * sizeof(float) + begin_.capacity() * sizeof(Index);
 }
 
 }  // namespace jet::physics

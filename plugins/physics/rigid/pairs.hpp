@@ -3,6 +3,7 @@
 // keeps within its box nothing is done (see docs/decisions/0045 and 0046).
 #pragma once
 
+#include "arena.hpp"
 #include "sift.hpp"
 
 #include <algorithm>
@@ -72,14 +73,14 @@ public:
 
     /// begin(), seek() of all parts, finish().
     template <class Found>
-    void sweep(Found&& found)
+    void sweep(Arena& arena, Found&& found)
     {
-        begin();
+        begin(arena);
         seek(0, parts(), found);
-        finish();
+        finish(arena);
     }
     /// A sweep: begin, seek all parts, finish; then nothing counts as moved.
-    void begin();
+    void begin(Arena&);
     /// Calls found(a, b) for each pair of boxes that meet, of which one was moved, and that did not meet before, if
     /// that one is of [first, last); different parts may be sought at once. Boxes of long parts meet before they do:
     /// their pairs come each time, even repeatedly.
@@ -95,7 +96,7 @@ public:
             }
         }
     }
-    void finish();
+    void finish(Arena&);
 
     template <class Archive>
     void archive(Archive& with)
@@ -283,8 +284,9 @@ private:
 
     /// Boxes in the order of sorted_, padded by some at infinity.
     struct Sides {
-        std::vector<float> minX, minY, maxX, maxY;
-        void resize(std::size_t count);
+        std::span<float> minX, minY, maxX, maxY;
+        static std::size_t roomFor(std::size_t count) { return 4 * (count + Sieve::kPairs); }
+        void lay(std::span<float> room);
         void set(std::size_t at, const FatBox& box)
         {
             minX[at] = box.minX, maxX[at] = box.maxX, minY[at] = box.minY, maxY[at] = box.maxY;
@@ -314,7 +316,9 @@ private:
     Grid grids_[kClasses];
     std::vector<Index> sorted_;                   // parts, bucket by bucket
     std::vector<float> reaches_, sortedReaches_;  // [parts], in the order of sorted_
-    Sides now_, then_;                            // boxes, and those before they were moved
+    std::vector<float> room_;                     // of now_
+    Sides now_, then_;                            // boxes, and, during a sweep, those before they were moved
+    std::size_t mark_ = 0;                        // of the arena, before then_ was taken
 };
 
 }  // namespace jet::physics

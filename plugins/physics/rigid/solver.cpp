@@ -24,9 +24,10 @@ Softness<Real> softness(double hertz, double dampingRatio, double h)
 }  // namespace
 
 template <class Real>
-void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool)
+void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool, Arena& arena)
 {
-    pool_ = &pool;
+    pool_ = &pool, arena_ = &arena;
+    states_ = {}, pushes_ = {}, drifts_ = {};
     shape_ = shape;
     const double rate = 1 / shape.h, hertz = std::min(kContactHertz, kHertzPerSubstepRate * rate);
     constants_.h = static_cast<Real>(shape.h), constants_.inverseH = static_cast<Real>(rate);
@@ -369,14 +370,13 @@ std::size_t Solver<Real>::colours() const
 template <class Real>
 std::size_t Solver<Real>::bytes() const
 {
-    std::size_t sum = states_.capacity() * (sizeof(BodyState<Real>) + sizeof(BodyPush<Real>)) +
-                      (taken_.capacity() + takenByJoints_.capacity()) * sizeof(std::uint32_t);
+    std::size_t sum = (taken_.capacity() + takenByJoints_.capacity()) * sizeof(std::uint32_t);
     for (const Colour& c : colours_)
         sum += c.contacts.capacity() * (sizeof(ContactLanes<Real>) + sizeof(FrictionLanes<Real>)) +
                c.bounces.capacity() * sizeof(BounceLanes<Real>) + c.index.capacity() * sizeof(Index);
     for (const JointColour& c : jointColours_) sum += c.joints.capacity() * sizeof(JointLanes<Real>);
     for (const auto& rows : rows_) sum += rows.capacity() * sizeof(JointRow<Real>);
-    return sum + domains_.bytes() + drifts_.capacity() * sizeof(float);
+    return sum + domains_.bytes();
 }
 
 template class Solver<float>;

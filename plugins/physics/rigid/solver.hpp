@@ -33,18 +33,27 @@ template <class Real>
 class Solver {
 public:
     /// Forgets the joints' constraints; bodies are to be set by body() and push().
-    void begin(std::size_t bodies, const StepShape&, Pool&);
+    /// The arena is new, and the solver's until the step ends.
+    void begin(std::size_t bodies, const StepShape&, Pool&, Arena&);
     /// Is the body, which does not move, where only what moves may be? Then the bodies are to be divided anew.
     bool isAstray(Index body) const { return domains_.nodeOf(body) != Domains::kRoot; }
     /// Divides the bodies anew when that is due; between begin() and the first use of a body.
     void divide(Collider&, const State&, const std::vector<Joint>&, bool anyway);
     BodyState<Real>& body(Index i) { return states_[domains_.slotOf(i)]; }
     const BodyState<Real>& body(Index i) const { return states_[domains_.slotOf(i)]; }
-    /// Calls work(body, state, push) for all bodies, many at once.
+    /// Calls work(body, state) for all bodies, many at once.
     template <class Work>
     void eachBody(Work&& work)
     {
-        domains_.eachBody(*pool_, [&](Index body, Index slot) { work(body, states_[slot], pushes_[slot]); });
+        domains_.eachBody(*pool_, [&](Index body, Index slot) { work(body, states_[slot]); });
+    }
+    /// After contacts were looked at: calls work(body, push) for all bodies, which is to fill them in.
+    template <class Work>
+    void pushBodies(Work&& work)
+    {
+        pushes_ = arena_->take<BodyPush<Real>>(domains_.slotCount());
+        pushes_[0] = BodyPush<Real>();
+        domains_.eachBody(*pool_, [&](Index body, Index slot) { work(body, pushes_[slot]); });
     }
     const Domains& domains() const { return domains_; }
 
@@ -220,8 +229,8 @@ private:
     int passes_ = 1;
     StepConstants<Real> constants_;
     const Kernels<Real>* kernels_ = nullptr;
-    std::vector<BodyState<Real>> states_;  // [slots]
-    std::vector<BodyPush<Real>> pushes_;
+    std::span<BodyState<Real>> states_;  // [slots] of the step, in the arena
+    std::span<BodyPush<Real>> pushes_;
     Domains domains_;
     std::uint64_t bordersThen_ = 0;                     // contacts between domains after the last division
     std::uint64_t sinceDivided_ = 0;                    // steps
@@ -232,8 +241,9 @@ private:
     std::vector<JointRow<Real>> rows_[Domains::kNodes + 1], made_[Domains::kNodes + 1];
     std::vector<TurningRows<Real>> turning_[Domains::kNodes + 1];
     std::vector<Flip> flips_[Domains::kNodes + 1];
-    std::vector<float> drifts_;  // [slots] of the collider
+    std::span<float> drifts_;  // [slots] of the collider, in the arena
     Pool* pool_ = nullptr;
+    Arena* arena_ = nullptr;
     std::vector<Block> blocks_;  // never shrinks, so that nothing is allocated in a steady step
     std::vector<TouchChange> changes_;
     double lastH_ = 0;  // seconds: the impulses are of substeps of this

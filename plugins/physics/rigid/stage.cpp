@@ -180,11 +180,11 @@ void RigidStage::look(Solver<Real>& solver, State& state, const WorldSettings& s
     }
     if (resolving_ != settings.resolveCollisions) solver.release(collider_);
     resolving_ = settings.resolveCollisions;
-    collider_.find(state, settings, dt, stats, pool_, solver.domains());
+    collider_.find(state, settings, dt, stats, pool_, arena_, solver.domains());
     const auto start = std::chrono::steady_clock::now();
     refresh(solver, state, settings, dt);
-    for (int round = 0; round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt, pool_);
-         ++round)
+    for (int round = 0;
+         round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt, pool_, arena_); ++round)
         refresh(solver, state, settings, dt);
     stats.narrowPhaseMs += millisecondsSince(start);
 }
@@ -206,7 +206,7 @@ void RigidStage::load(Solver<Real>& solver, const State& state)
 {
     const Nodes& nodes = state.nodes;
     std::atomic<bool> astray = false;
-    const auto take = [&](Index i, BodyState<Real>& s, BodyPush<Real>&) {
+    const auto take = [&](Index i, BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         const Index node = body.node;
         s.velocityX = static_cast<Real>(nodes.velocity[node].x()),
@@ -258,7 +258,8 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     const StepShape shape = shapeOf(settings, dt, large);
     pool_.setThreads(settings.threads);
     const Pool::Attention attention(pool_);
-    solver.begin(collider_.bodies().size(), shape, pool_);
+    arena_.reset();
+    solver.begin(collider_.bodies().size(), shape, pool_, arena_);
     substeps_ = shape.substeps;
     drowsy_ = false;
     scaleSleeping(shape.h);
@@ -268,15 +269,14 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     const double linear = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
     const double angular = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
     const Nodes& nodes = std::as_const(state).nodes;
-    solver.eachBody([&](Index i, BodyState<Real>&, BodyPush<Real>& force) {
+    solver.pushBodies([&](Index i, BodyPush<Real>& force) {
         const RigidBody& body = collider_.bodies()[i];
         force = BodyPush<Real>();
         if (!body.moves || body.asleep) return;
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
         const Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
-        force.accelerationW =
-            static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
+        force.accelerationW = static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
         force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
     });
     addJoints(solver, state);
@@ -299,12 +299,12 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
     const bool fast = anyFast(solver);
     if (fast) {
         moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
-        solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
+        solver.eachBody([&](Index i, const BodyState<Real>& s) {
             moves_[i] = moveOf(s), turns_[i] = static_cast<double>(s.sweep) / collider_.bodies()[i].gyration;
         });
         collider_.stopTunnelling(allowed_, moves_, turns_, dt);
     }
-    solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
+    solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         if ((!body.moves && !body.kinematic) || body.asleep) return;
         const double part = fast ? static_cast<double>(allowed_[i]) : 1;
@@ -326,7 +326,7 @@ template <class Real>
 bool RigidStage::anyFast(Solver<Real>& solver)
 {
     std::atomic<bool> any = false;
-    solver.eachBody([&](Index i, const BodyState<Real>& s, BodyPush<Real>&) {
+    solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         const Vec2 move(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
         if (body.moves &&
@@ -345,7 +345,8 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * h;
     pool_.setThreads(settings.threads);
     scaleSleeping(h);
-    double_.begin(collider_.bodies().size(), shape, pool_);
+    arena_.reset();
+    double_.begin(collider_.bodies().size(), shape, pool_, arena_);
     load(double_, state);
     start_.resize(collider_.bodies().size()), startAngle_.resize(collider_.bodies().size());
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
@@ -353,6 +354,7 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
         startAngle_[i] = state.nodes.angle[collider_.bodies()[i].node];
     }
     look(double_, state, settings, dt, stats);
+    double_.pushBodies([](Index, BodyPush<double>& push) { push = BodyPush<double>(); });
     addJoints(double_, state);
     double_.prepare(passesFor(double_.hardestHit(), false, h));
 }
@@ -472,7 +474,7 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
 
 std::size_t RigidStage::bytes() const
 {
-    return collider_.bytes() + single_.bytes() + double_.bytes() + joints_.capacity() * sizeof(Joint) +
+    return arena_.bytes() + collider_.bytes() + single_.bytes() + double_.bytes() + joints_.capacity() * sizeof(Joint) +
            bodyOf_.capacity() * sizeof(Index);
 }
 

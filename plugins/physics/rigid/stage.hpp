@@ -75,6 +75,8 @@ public:
     /// Bodies that stand were moved or changed.
     void rearrange() { collider_.rearrange(); }
     std::size_t bytes() const;
+    /// Of steps; between them it holds nothing of theirs.
+    Arena& arena() { return arena_; }
     void fitRoom() { collider_.fitRoom(), bodyOf_.shrink_to_fit(); }
 
     template <class Archive>
@@ -148,6 +150,7 @@ private:
     enum class Active : std::uint8_t { None, Single, Double };
 
     Pool pool_;
+    Arena arena_;
     Collider collider_;
     Active active_ = Active::None;
     bool resolving_ = true;

@@ -31,7 +31,8 @@ Pairs meeting(const std::vector<FatBox>& boxes)
 Pairs sweep(PairSweep& pairs)
 {
     Pairs found;
-    pairs.sweep([&](Index a, Index b) { EXPECT_TRUE(found.insert({a, b}).second); });
+    Arena arena;
+    pairs.sweep(arena, [&](Index a, Index b) { EXPECT_TRUE(found.insert({a, b}).second); });
     return found;
 }
 
@@ -107,17 +108,18 @@ TEST(Pairs, OnlyWhatMeetsAPieceOfALongPartMeetsIt)
     pairs.move(1, around(30, 31, 1, 1));
     pairs.move(2, around(80, 20, 1, 1));
     pairs.move(3, around(52, 53, 2, 2));
+    Arena arena;
     Pairs found;
     const auto note = [&](Index a, Index b) { found.insert({a, b}); };
-    pairs.sweep(note);
+    pairs.sweep(arena, note);
     EXPECT_EQ(found, (Pairs{{0, 1}, {0, 3}}));
     found.clear();
     pairs.move(2, around(80, 79, 1, 1));
-    pairs.sweep(note);
+    pairs.sweep(arena, note);
     EXPECT_EQ(found, (Pairs{{0, 2}})) << "from the other side, too";
     found.clear();
     pairs.forget(3), pairs.move(3, around(52, 53, 2, 2));
-    pairs.sweep(note);
+    pairs.sweep(arena, note);
     EXPECT_EQ(found, (Pairs{{0, 3}})) << "and again when it was forgotten";
 }
 
