@@ -80,12 +80,12 @@ void ForceFields::act(State& state, const RigidStage& rigid, const Field& field,
         const Vec2 centre = nodes.position[body.nodes.first], turn = nodes.rotation[body.nodes.first];
         const PartRing ring = ringOf(rigid.onlyPart(handle));
         for (Index i = 0; i < ring.count; ++i)
-            pull(body.nodes.first, centre + rotated(turn, ring.points[i]), body.mass / ring.count);
+            pull(body.nodes.first, centre + rotated(turn, ring.points[i]), state.massOf(body) / ring.count);
     } else if (body.points.count == 0) {
-        pull(body.nodes.first, nodes.position[body.nodes.first], body.mass);
+        pull(body.nodes.first, nodes.position[body.nodes.first], state.massOf(body));
     } else {
         for (Index p = body.points.first; p < body.points.end(); ++p)
-            pull(body.nodes.first, state.pointNow(p), body.mass / body.points.count);
+            pull(body.nodes.first, state.pointNow(p), state.massOf(body) / body.points.count);
     }
 }
 

@@ -297,7 +297,8 @@ void SoftSprings::accelerateAlone(State& state, soft::Batch& batch, soft::Veloci
                         frameOf(state, handle), step, planes(batch));
     if (swing.torn > 0) tearIn(state, batch, swing.torn);
     // Taken out as the body moves on. Pins take it up where there are any.
-    drift_[handle] = swing.pinned ? Vec2(0, 0) : Vec2(-step.kept * step.h * leftOver(swing.x, swing.y, body.mass));
+    drift_[handle] =
+        swing.pinned ? Vec2(0, 0) : Vec2(-step.kept * step.h * leftOver(swing.x, swing.y, body.soft->mass));
 }
 
 void SoftSprings::accelerateAlike(State& state, soft::Batch& batch, double h, const Vec2& gravity, double kept,
@@ -317,7 +318,8 @@ void SoftSprings::accelerateAlike(State& state, soft::Batch& batch, double h, co
     std::array<soft::VelocityStep, soft::kLanes> steps;
     for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
         const BodyRecord& body = state.bodies[batch.bodies[lane]];
-        const Vec2 fall = body.gravityScale * gravity - leftOver(left[lane], left[soft::kLanes + lane], body.mass);
+        const Vec2 fall =
+            body.gravityScale * gravity - leftOver(left[lane], left[soft::kLanes + lane], body.soft->mass);
         steps[lane] = {h, fall.x(), fall.y(), kept};
     }
     kernels_->accelerateAlike(velocity, force, nodes.invMass.data(), batch.nodeAt.data(), batch.rows,

@@ -82,6 +82,7 @@ struct Range {
 /// What only soft bodies have.
 struct SoftRecord {
     SoftMatter matter;
+    double mass = 0;
     double restArea = 0;            // inside the borders at rest, units²
     Range springs, angularSprings;  // into SoftSprings
     bool open = false;              // torn at its border, which lets gas out
@@ -106,7 +107,6 @@ struct BodyRecord {
     float radius = 0;   // rigid: farthest point from the centre, scene units
     double length = 1;  // typical size, scene units: tolerances are fractions of it
     double gravityScale = 1;
-    double mass = 0;
     double second = 0;                 // rigid: moment of inertia of a unit of mass, units²
     std::unique_ptr<SoftRecord> soft;  // of soft bodies
     // Rigid: in the node's frame, and null until gridOf() is asked; soft: in the scene's, as of the last detection.
@@ -148,6 +148,7 @@ struct State {
         const Index node = points.node[point];
         return nodes.position[node] + rotated(nodes.rotation[node], points.local[point]);
     }
+    double massOf(const BodyRecord& body) const { return body.soft ? body.soft->mass : nodes.mass[body.nodes.first]; }
     /// Wall ends in the frame of the body's grid.
     const std::vector<Vec2>& gridFrame(const BodyRecord& body) const
     {

@@ -106,9 +106,9 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
         nodeOf[i] = body.nodes.first + k;
     }
     for (Index i = 0; i < count; ++i) addPoint(body, nodeOf[i], Vec2(0, 0), def.particles[i]);
-    body.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
+    soft.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
     Vec2 centre(0, 0);
-    for (Index i = 0; i < count; ++i) centre += def.masses[i] / body.mass * def.particles[i];
+    for (Index i = 0; i < count; ++i) centre += def.masses[i] / soft.mass * def.particles[i];
     soft.restArms.reserve(count);
     for (Index i : particleOf) soft.restArms.push_back(def.particles[i] - centre);
 
@@ -181,7 +181,7 @@ void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def, const std::v
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.local[p] -= centre;
 
     const Index node = body.nodes.first;
-    body.mass = def.mass, body.second = second;
+    body.second = second;
     state_.nodes.position[node] = centre;
     applyMotion(body);
 }
@@ -192,9 +192,9 @@ void World::applyMotion(BodyRecord& body)
     const Index node = body.nodes.first;
     const bool moves = !body.fixed && !body.drives && body.enabled;
     body.kinematic = body.drives && body.enabled;
-    state_.nodes.mass[node] = body.mass;
-    state_.nodes.invMass[node] = moves ? 1 / body.mass : 0;
-    state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (body.mass * body.second) : 0;
+    const double mass = state_.nodes.mass[node];
+    state_.nodes.invMass[node] = moves ? 1 / mass : 0;
+    state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (mass * body.second) : 0;
 }
 
 void World::extendReadings()

@@ -60,7 +60,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
     stepForces_.cover(state_.nodes.size());
     rigid_.wake(state_, handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        stepForces_[n] += state_.nodes.mass[n] / body.mass * force;
+        stepForces_[n] += state_.nodes.mass[n] / state_.massOf(body) * force;
 }
 
 void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
@@ -71,7 +71,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
     const BodyRecord& body = state_.bodies[handle];
     if (impulse != Vec2(0, 0)) rigid_.wake(state_, handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / body.mass;
+        if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / state_.massOf(body);
     reread(handle);
 }
 
@@ -161,7 +161,7 @@ void World::archive(Self& self, Archive& with)
     self.actuators_.archive(with);
     self.fields_.archive(with);
     for (BodyRecord& body : self.state_.bodies) {
-        with(body.mass), with(body.material), with(body.gravityScale), with(body.layer);
+        with(body.material), with(body.gravityScale), with(body.layer);
         const auto flag = [&with](auto get, auto set) {
             std::uint8_t value = get();
             with(value);
@@ -174,6 +174,7 @@ void World::archive(Self& self, Archive& with)
         flag([&] { return body.drives; }, [&](bool is) { body.drives = is; });
         flag([&] { return body.fixedRotation; }, [&](bool is) { body.fixedRotation = is; });
         if (!body.soft) continue;
+        with(body.soft->mass);
         SoftMatter& matter = body.soft->matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);

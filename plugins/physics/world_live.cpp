@@ -29,13 +29,15 @@ void World::setMass(BodyHandle handle, double mass)
     requireFinite("a mass", {mass});
     if (!(mass > 0)) throw Failure(Error("Physics: a body's mass must be greater than 0."));
     BodyRecord& body = state_.bodies[handle];
-    if (mass == body.mass) return;
+    const double before = state_.massOf(body);
+    if (mass == before) return;
     Nodes& nodes = state_.nodes;
-    const double ratio = mass / body.mass;
-    body.mass = mass;
     if (body.rigid) {
+        nodes.mass[body.nodes.first] = mass;
         applyMotion(body);
     } else {
+        const double ratio = mass / before;
+        body.soft->mass = mass;
         for (Index n = body.nodes.first; n < body.nodes.end(); ++n) nodes.mass[n] *= ratio, nodes.invMass[n] /= ratio;
     }
     rate_ = -1;

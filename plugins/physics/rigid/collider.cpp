@@ -25,10 +25,11 @@ float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37));
 
 }  // namespace
 
-Index Collider::addBody(const RigidBody& body)
+Index Collider::addBody(const RigidBody& body, const Rules& rules)
 {
     makeRoom(1, bodies_);
     bodies_.push_back(body);
+    bodies_.back().rules = rules_.add(rules), bodies_.back().oneSided = rules.isOneSided();
     bodies_.back().firstPart = static_cast<Index>(parts_.size());
     return static_cast<Index>(bodies_.size() - 1);
 }
@@ -46,6 +47,14 @@ void Collider::addPart(Part part, const PartOutline* outline)
     makeRoom(1, parts_);
     parts_.push_back(part);
     typical_ = 0;
+}
+
+void Collider::setRules(RigidBody& body, const Rules& rules)
+{
+    const Index before = body.rules;
+    body.rules = rules_.add(rules);
+    rules_.drop(before);
+    body.oneSided = rules.isOneSided();
 }
 
 void Collider::disturb(Index body)
@@ -93,7 +102,7 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
 {
     const auto start = std::chrono::steady_clock::now();
     if (typical_ == 0 && !parts_.empty()) measure();
-    if (rearranged_ || !welded_) weld_.run(parts_, bodies_, state, typical_);
+    if (rearranged_ || !welded_) weld_.run(parts_, bodies_, rules_, state, typical_);
     if (rearranged_) {
         for (Index i = 0; i < contacts_.size(); ++i) markDue(i);
         disturbed_ = true;
@@ -357,8 +366,9 @@ bool Collider::mayMeet(Index a, Index b) const
 {
     const RigidBody &bodyA = bodies_[a], &bodyB = bodies_[b];
     if (a == b || (!bodyA.moves && !bodyB.moves) || !bodyA.enabled || !bodyB.enabled) return false;
-    if (bodyA.group != 0 && bodyA.group == bodyB.group) return false;
-    return (bodyA.layer & bodyB.mask) != 0 && (bodyB.layer & bodyA.mask) != 0;
+    const Rules &rulesA = rulesOf(bodyA), &rulesB = rulesOf(bodyB);
+    if (rulesA.group != 0 && rulesA.group == rulesB.group) return false;
+    return (rulesA.layer & rulesB.mask) != 0 && (rulesB.layer & rulesA.mask) != 0;
 }
 
 void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
@@ -369,7 +379,8 @@ void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
     if (!mayMeet(a, b)) return;
     const RigidBody &bodyA = bodies_[a], &bodyB = bodies_[b];
     const MaterialPair& pair =
-        settings.materials[static_cast<std::size_t>(bodyA.material) * settings.materialCount + bodyB.material];
+        settings.materials[static_cast<std::size_t>(rulesOf(bodyA).material) * settings.materialCount +
+                           rulesOf(bodyB).material];
     if (!pair.collides) return;
     RigidContact c;
     c.partA = partA, c.partB = partB, c.bodyA = a, c.bodyB = b;
@@ -379,7 +390,7 @@ void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
     const float lengthA = parts_[partA].length, lengthB = parts_[partB].length;
     c.slop = kSlop * (!bodyA.moves ? lengthB : !bodyB.moves ? lengthA : std::min(lengthA, lengthB));
     c.resolve = !bodyA.sensor && !bodyB.sensor;
-    c.special = bodyA.isOneSided() || bodyB.isOneSided() || isLonger(partA, partB);
+    c.special = bodyA.oneSided || bodyB.oneSided || isLonger(partA, partB);
     Nearing n;
     n.bodyA = a, n.bodyB = b, n.slop = c.slop;
     n.thin = kThin * std::min(parts_[partA].thickness, parts_[partB].thickness);
@@ -448,7 +459,7 @@ std::size_t Collider::bytes() const
            contacts_.capacity() * (sizeof(RigidContact) + sizeof(Nearing)) +
            (way_.capacity() + reached_.capacity()) * sizeof(double) + (places_.capacity() + free_.capacity()) * 4 +
            (drift_.capacity() + surprise_.capacity()) * sizeof(float) + sweep_.bytes() + known_.bytes() +
-           excluded_.bytes() + weld_.bytes();
+           excluded_.bytes() + weld_.bytes() + rules_.bytes();
 }
 
 }  // namespace jet::physics

@@ -9,6 +9,7 @@
 #include "look.hpp"
 #include "pairs.hpp"
 #include "pool.hpp"
+#include "rules.hpp"
 #include "sift.hpp"
 #include "weld.hpp"
 
@@ -19,7 +20,7 @@ namespace jet::physics {
 class Collider {
 public:
     /// Begins a body; its parts follow.
-    Index addBody(const RigidBody&);
+    Index addBody(const RigidBody&, const Rules&);
     void addPart(Part, const PartOutline* = nullptr);
 
     /// Two bodies that shall not collide, because a joint holds them.
@@ -88,6 +89,9 @@ public:
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
     void stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves, const std::vector<double>& turns,
                         double dt) const;
+
+    const Rules& rulesOf(const RigidBody& body) const { return rules_[body.rules]; }
+    void setRules(RigidBody&, const Rules&);
 
     std::vector<RigidBody>& bodies() { return bodies_; }
     const std::vector<RigidBody>& bodies() const { return bodies_; }
@@ -184,6 +188,7 @@ private:
     void decideSide(RigidContact&) const;
 
     std::vector<RigidBody> bodies_{RigidBody()};
+    RuleBook rules_;
     std::vector<Part> parts_;
     Weld weld_;
     bool rearranged_ = true;  // has something that stands come, gone or been moved?

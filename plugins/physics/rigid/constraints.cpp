@@ -28,7 +28,7 @@ typename Solver<Real>::Node Solver<Real>::nodeOf(Index a, bool movesA, Index b, 
 }
 
 template <class Real>
-std::size_t Solver<Real>::colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken) const
+std::size_t Solver<Real>::colourOf(Index a, bool movesA, Index b, bool movesB, Taken& taken) const
 {
     const Node node = nodeOf(a, movesA, b, movesB);
     const std::uint32_t both = (movesA ? takenOf(taken, a, node) : 0) | (movesB ? takenOf(taken, b, node) : 0);
@@ -407,7 +407,7 @@ void Solver<Real>::release(Collider& collider)
         places[contact] = kIdle;
     }
     for (Colour& colour : colours_) clear(colour);
-    std::fill(taken_.begin(), taken_.end(), 0U);
+    taken_.clear();
     bounces_ = false;
 }
 
@@ -427,7 +427,8 @@ void Solver<Real>::place(const Collider& collider)
     if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
     for (Colour& colour : colours_) clear(colour);
     bounces_ = bounces;
-    taken_.assign(collider.bodies().size() * Domains::kLevels, 0);
+    taken_.clear();
+    taken_.resize(collider.bodies().size(), domains_.depth());
     const auto& places = collider.places();
     for (Index contact = 0; contact < places.size(); ++contact) {
         if (!isPlaced(places[contact])) continue;

@@ -11,27 +11,19 @@ namespace jet::physics {
 struct RigidBody {
     Index node = kNone, handle = kNone;
     Index firstPart = 0, partCount = 0;
-    Index material = 0;
-    std::uint32_t group = 0, layer = 1, mask = ~0U;
+    Index rules = 0;     // in the collider's book
     bool moves = false;  // pushed by contacts
     bool kinematic = false, sensor = false;
     bool mayRest = true;
     bool enabled = true;
     bool asleep = false, posed = false;  // rests; its pose was taken since it does
-    double gyration = 1;                 // its radius, units
+    bool oneSided = false;               // by its rules
     float length = 1;                    // typical size, units
     float finest = 0;                    // the same of its smallest part
     float reach = 0;                     // farthest point from the centre, units
-    float oneSidedX = 0, oneSidedY = 0;  // unit, or null
+    double gyration = 1;                 // its radius, units
 
     bool takesPart() const { return enabled && !asleep; }
-    bool isOneSided() const { return oneSidedX != 0 || oneSidedY != 0; }
-    void setOneSided(const Vec2& direction)
-    {
-        const double length = direction.norm();
-        const Vec2 up = length > 0 ? Vec2(direction / length) : Vec2(0, 0);
-        oneSidedX = static_cast<float>(up.x()), oneSidedY = static_cast<float>(up.y());
-    }
 };
 
 /// What collision needs to know of a body's motion, refreshed at the start of a step. In a line of its own, as threads

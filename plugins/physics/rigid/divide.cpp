@@ -82,7 +82,8 @@ void Solver<Real>::moveToNodes(Collider& collider)
     const auto& bodies = collider.bodies();
     std::vector<Colour> old(colours_.size());
     old.swap(colours_);
-    std::fill(taken_.begin(), taken_.end(), 0U);
+    taken_.clear();
+    taken_.resize(bodies.size(), domains_.depth());
     for (std::size_t i = 0; i < old.size(); ++i) {
         const std::size_t source = i % Domains::kNodes * kColours + i / Domains::kNodes;
         for (std::size_t at = 0; at < old[source].count; ++at) {

@@ -9,11 +9,7 @@ namespace jet::physics {
 namespace {
 
 /// Whatever decides what a body meets, and how.
-auto meetingsOf(const RigidBody& body)
-{
-    return std::tuple(body.enabled, body.moves, body.kinematic, body.sensor, body.material, body.group, body.layer,
-                      body.mask, body.oneSidedX, body.oneSidedY);
-}
+auto meetingsOf(const RigidBody& body) { return std::tuple(body.enabled, body.moves, body.kinematic, body.sensor); }
 
 }  // namespace
 
@@ -23,15 +19,14 @@ void RigidStage::set(const State& state, Index handle, const BodyCommon& common)
     const Index index = bodyOf_[handle];
     RigidBody& body = collider_.bodies()[index];
     RigidBody wanted = body;
-    wanted.material = common.material;
-    wanted.group = common.group, wanted.layer = common.layer, wanted.mask = common.mask;
+    const Rules rules(common);
     wanted.sensor = common.sensor, wanted.mayRest = common.allowSleep;
-    wanted.setOneSided(common.oneSided);
     wanted.moves = state.nodes.invMass[body.node] > 0;
     wanted.kinematic = state.bodies[handle].kinematic;
-    const bool meetsOthers = meetingsOf(wanted) != meetingsOf(body);
+    const bool meetsOthers = meetingsOf(wanted) != meetingsOf(body) || rules != collider_.rulesOf(body);
     if (meetsOthers) forgetContacts(index);
     body = wanted;
+    collider_.setRules(body, rules);
     if (meetsOthers) changed(index);
     collider_.disturb(index);
 }
@@ -40,10 +35,7 @@ bool RigidStage::isSet(Index handle, const BodyCommon& common) const
 {
     if (!has(handle)) return true;
     const RigidBody& body = collider_.bodies()[bodyOf_[handle]];
-    RigidBody wanted = body;
-    wanted.setOneSided(common.oneSided);
-    return body.group == common.group && body.mask == common.mask && body.mayRest == common.allowSleep &&
-           body.oneSidedX == wanted.oneSidedX && body.oneSidedY == wanted.oneSidedY;
+    return body.mayRest == common.allowSleep && collider_.rulesOf(body) == Rules(common);
 }
 
 void RigidStage::enable(const State& state, Index handle, bool enabled)

@@ -96,7 +96,8 @@ void PairSweep::resize(std::size_t parts, float typical)
     if (boxes_.size() == parts) return;
     boxes_.resize(parts), before_.resize(parts, kNowhere);
     if (moved_.size() < parts) anyMoved_ = true;
-    moved_.resize(parts, 1), pieceOf_.resize(parts, 0);
+    moved_.resize(parts, 1);
+    if (!pieceOf_.empty()) pieceOf_.resize(parts, 0);
     classes_.resize(parts, kNoClass), buckets_.resize(parts), sorted_.resize(parts);
     shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
     reaches_.resize(parts, 0), sortedReaches_.resize(parts + Sieve::kPairs);
@@ -106,6 +107,7 @@ void PairSweep::resize(std::size_t parts, float typical)
 
 void PairSweep::setLong(Index part)
 {
+    pieceOf_.resize(boxes_.size(), 0);
     if (pieceOf_[part] != 0) return;
     pieceOf_[part] = static_cast<Index>(pieces_.size());
     pieces_.emplace_back();
@@ -194,7 +196,7 @@ void PairSweep::setSlot(std::size_t slot, Index part)
 {
     now_.set(slot, boxes_[part]);
     // Of what lies in pieces it is not known which of them met.
-    then_.set(slot, pieceOf_[part] != 0 ? kNowhere : moved_[part] != 0 ? before_[part] : boxes_[part]);
+    then_.set(slot, pieceOf(part) != 0 ? kNowhere : moved_[part] != 0 ? before_[part] : boxes_[part]);
 }
 
 std::size_t PairSweep::slotOf(Index part) const
@@ -212,7 +214,7 @@ bool PairSweep::retouch()
     std::size_t count = 0, boxes = 0;
     for (Index part = 0; part < moved_.size(); ++part) {
         if (moved_[part] == 0) continue;
-        boxes += pieceOf_[part] == 0 ? 1 : pieces_[pieceOf_[part]].size();
+        boxes += pieceOf(part) == 0 ? 1 : pieces_[pieceOf_[part]].size();
         if (boxes > kFewMoved || count == kFewMoved) return false;
         moved[count++] = part;
     }

@@ -54,7 +54,7 @@ public:
     }
     /// A long part: its box is large, but only what meets one of these pieces of it is met.
     void setLong(Index part);
-    std::vector<FatBox>* piecesOf(Index part) { return pieceOf_[part] == 0 ? nullptr : &pieces_[pieceOf_[part]]; }
+    std::vector<FatBox>* piecesOf(Index part) { return pieceOf(part) == 0 ? nullptr : &pieces_[pieceOf_[part]]; }
     void noteMoves() { anyMoved_ = true; }
     bool anyMoved() const { return anyMoved_; }
     /// Pairs that were found before are to be found again.
@@ -89,7 +89,7 @@ public:
     {
         for (auto part = static_cast<Index>(first); part < last; ++part) {
             if (moved_[part] == 0) continue;
-            if (pieceOf_[part] == 0) {
+            if (pieceOf(part) == 0) {
                 meet(part, boxes_[part], found);
             } else {
                 for (const FatBox& piece : pieces_[pieceOf_[part]]) meet(part, piece, found);
@@ -180,7 +180,7 @@ private:
     public:
         Search(const PairSweep& sweep, Index part, const FatBox& box, Found& found)
             : sweep_(sweep), part_(part),
-              found_(found), box_{box, sweep.pieceOf_[part] != 0 ? kNowhere : sweep.before_[part], sweep.reaches_[part]}
+              found_(found), box_{box, sweep.pieceOf(part) != 0 ? kNowhere : sweep.before_[part], sweep.reaches_[part]}
         {
         }
         void add(std::size_t first, std::size_t last)
@@ -219,7 +219,7 @@ private:
             for (std::size_t i = 0; i < hits; ++i) {
                 const Index other = sweep_.sorted_[near[i]];
                 if (other == part_ || (sweep_.moved_[other] != 0 && other < part_) || !counts(other)) continue;
-                if (sweep_.pieceOf_[other] != 0 && !sweep_.meetsPieces(other, box_.now)) continue;
+                if (sweep_.pieceOf(other) != 0 && !sweep_.meetsPieces(other, box_.now)) continue;
                 found_(std::min(part_, other), std::max(part_, other));
             }
             count_ = length_ = 0;
@@ -299,8 +299,10 @@ private:
     }
 
     const Sieve* sieve_ = &sse2::pairSieve;
+    Index pieceOf(Index part) const { return pieces_.size() == 1 ? 0 : pieceOf_[part]; }
+
     std::vector<FatBox> boxes_, before_;          // [parts] before they were moved
-    std::vector<Index> pieceOf_;                  // [parts] 0: it is in one piece
+    std::vector<Index> pieceOf_;                  // [parts] 0: it is in one piece; nothing where all are
     std::vector<std::vector<FatBox>> pieces_{1};  // of long parts
     std::vector<Index> long_{0};                  // [pieces_] whose they are
     std::vector<std::uint8_t> moved_;

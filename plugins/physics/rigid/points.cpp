@@ -245,7 +245,7 @@ void Collider::renew(RigidContact& c, const Manifold& m, const Relative& at, flo
 void Collider::decideSide(RigidContact& c) const
 {
     const RigidBody &a = bodies_[c.bodyA], &b = bodies_[c.bodyB];
-    if (a.oneSidedX == 0 && a.oneSidedY == 0 && b.oneSidedX == 0 && b.oneSidedY == 0) return;
+    if (!a.oneSided && !b.oneSided) return;
     if (c.count == 0) {
         c.passing = false;
         c.resolve = !a.sensor && !b.sensor;
@@ -253,8 +253,8 @@ void Collider::decideSide(RigidContact& c) const
     }
     const Vec2f normal = turned(poses_[c.bodyA].turn, c.normal);
     const auto wrong = [&](const RigidBody& body, Vec2f outward) {
-        return (body.oneSidedX != 0 || body.oneSidedY != 0) &&
-               body.oneSidedX * outward.x + body.oneSidedY * outward.y < 0.5F;
+        const Rules& rules = rulesOf(body);
+        return body.oneSided && rules.oneSidedX * outward.x + rules.oneSidedY * outward.y < 0.5F;
     };
     const bool deep = c.nearest() < -8 * c.slop && !c.touching;
     if (wrong(a, normal) || wrong(b, -normal) || deep) c.passing = true;

@@ -37,8 +37,8 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool,
     constants_.restSpeed = static_cast<Real>(shape.restSpeed);
     kernels_ = &kernels<Real>(shape.choice);
     domains_.resize(bodies);
-    taken_.resize(bodies * Domains::kLevels, 0);
-    std::fill(takenByJoints_.begin(), takenByJoints_.end(), 0U);
+    taken_.resize(bodies, domains_.depth());
+    takenByJoints_.clear();
     if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
     for (JointColour& colour : jointColours_) colour.joints.clear(), colour.index.clear(), colour.count = 0;
     for (auto& rows : rows_) rows.clear();
@@ -61,7 +61,7 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     addRows(joint, index, f, states_.data(), slotA, slotB, shape_.h, rows_[node]);
     if (joint.rowsTurn()) turning_[node].emplace_back(joint, index, f, slotA, slotB, first, rows_[node].size() - first);
     if (!joint.hasPoint()) return;
-    takenByJoints_.resize(taken_.size(), 0);
+    takenByJoints_.resize(bodies.size(), domains_.depth());
     const std::size_t which = colourOf(joint.a, movesA, joint.b, movesB, takenByJoints_);
     JointColour& colour = jointColours_[which];
     constexpr std::size_t lanes = kLanes<Real>;
@@ -370,7 +370,7 @@ std::size_t Solver<Real>::colours() const
 template <class Real>
 std::size_t Solver<Real>::bytes() const
 {
-    std::size_t sum = (taken_.capacity() + takenByJoints_.capacity()) * sizeof(std::uint32_t);
+    std::size_t sum = taken_.bytes() + takenByJoints_.bytes();
     for (const Colour& c : colours_)
         sum += c.contacts.capacity() * (sizeof(ContactLanes<Real>) + sizeof(FrictionLanes<Real>)) +
                c.bounces.capacity() * sizeof(BounceLanes<Real>) + c.index.capacity() * sizeof(Index);

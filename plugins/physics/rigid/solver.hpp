@@ -133,6 +133,25 @@ private:
         bool kept;
     };
 
+    /// Colours each body is in, as bits, on each level of the tree of domains that there is.
+    struct Taken {
+        std::vector<std::uint32_t> levels[Domains::kLevels];
+        void resize(std::size_t bodies, int depth)
+        {
+            for (int level = 0; level <= depth; ++level) levels[level].resize(bodies, 0);
+        }
+        void clear()
+        {
+            for (auto& level : levels) std::fill(level.begin(), level.end(), 0U);
+        }
+        std::size_t bytes() const
+        {
+            std::size_t sum = 0;
+            for (const auto& level : levels) sum += level.capacity() * sizeof(std::uint32_t);
+            return sum;
+        }
+    };
+
     static constexpr std::size_t kColours = 24;  // of a node; more are solved one by one, in the last
     static constexpr std::size_t kWidth = kLanes<Real>;
 
@@ -149,10 +168,10 @@ private:
     static bool isLast(std::size_t colour) { return colour % kColours == kColours - 1; }
     Node nodeOf(Index a, bool movesA, Index b, bool movesB) const;
     /// The first colour of their node that neither body is in yet; what does not move is in none.
-    std::size_t colourOf(Index a, bool movesA, Index b, bool movesB, std::vector<std::uint32_t>& taken) const;
-    std::uint32_t& takenOf(std::vector<std::uint32_t>& taken, Index body, Node node) const
+    std::size_t colourOf(Index a, bool movesA, Index b, bool movesB, Taken& taken) const;
+    std::uint32_t& takenOf(Taken& taken, Index body, Node node) const
     {
-        return taken[body * Domains::kLevels + static_cast<std::size_t>(Domains::levelOf(node))];
+        return taken.levels[Domains::levelOf(node)][body];
     }
     /// Groups [first, last) of a colour, or some contacts without points, and what was found of them.
     struct Block {
@@ -232,11 +251,11 @@ private:
     std::span<BodyState<Real>> states_;  // [slots] of the step, in the arena
     std::span<BodyPush<Real>> pushes_;
     Domains domains_;
-    std::uint64_t bordersThen_ = 0;                     // contacts between domains after the last division
-    std::uint64_t sinceDivided_ = 0;                    // steps
-    std::vector<std::uint32_t> taken_, takenByJoints_;  // [bodies][levels] colours
-    std::vector<Colour> colours_;                       // [nodes][colours]
-    std::vector<JointColour> jointColours_;             // the same
+    std::uint64_t bordersThen_ = 0;   // contacts between domains after the last division
+    std::uint64_t sinceDivided_ = 0;  // steps
+    Taken taken_, takenByJoints_;
+    std::vector<Colour> colours_;                                                          // [nodes][colours]
+    std::vector<JointColour> jointColours_;                                                // the same
     std::size_t used_[Domains::kNodes + 1] = {}, usedByJoints_[Domains::kNodes + 1] = {};  // [nodes] colours
     std::vector<JointRow<Real>> rows_[Domains::kNodes + 1], made_[Domains::kNodes + 1];
     std::vector<TurningRows<Real>> turning_[Domains::kNodes + 1];

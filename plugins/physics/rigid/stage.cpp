@@ -65,17 +65,14 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
     const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
     body.node = node, body.handle = handle;
-    body.material = def.common.material;
-    body.group = def.common.group, body.layer = def.common.layer, body.mask = def.common.mask;
     body.moves = state.nodes.invMass[node] > 0;
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
     body.gyration = std::sqrt(state.bodies[handle].second);
-    body.setOneSided(def.common.oneSided);
     const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
     if (bodyOf_.size() <= handle) makeRoom(handle + 1 - bodyOf_.size(), bodyOf_), bodyOf_.resize(handle + 1, 0);
-    bodyOf_[handle] = collider_.addBody(body);
+    bodyOf_[handle] = collider_.addBody(body, Rules(def.common));
     movers_ += body.moves;
     if (body.kinematic) kinematic_.push_back(bodyOf_[handle]);
     for (const DrawnPart& part : drawn) collider_.addPart(part.part, part.outlined ? &part.outline : nullptr);

@@ -87,8 +87,10 @@ public:
         with(watches_), with(group_), with(sinceLook_), with(restH_), with(sleepers_), with(drowsy_), with(woke_);
         for (RigidBody& body : collider_.bodies()) {
             with(body.asleep), with(body.enabled), with(body.moves), with(body.kinematic), with(body.sensor);
-            with(body.mayRest), with(body.material), with(body.group), with(body.layer), with(body.mask);
-            with(body.oneSidedX), with(body.oneSidedY);
+            with(body.mayRest);
+            Rules rules = collider_.rulesOf(body);
+            with(rules);
+            if constexpr (std::is_same_v<Archive, RestoreArchive>) collider_.setRules(body, rules);
         }
         with.list(ended_, [&](Parting& parting) { with(parting); });
         with(active_);

@@ -15,9 +15,9 @@ constexpr double kNear = 1e-3;  // of the typical length: ends that lie nearer a
 bool stands(const RigidBody& body) { return body.enabled && !body.moves && !body.kinematic && !body.sensor; }
 
 /// Only what meets the same others is welded.
-auto kindOf(const RigidBody& body)
+auto kindOf(const Rules& rules)
 {
-    return std::tuple(body.layer, body.mask, body.group, body.oneSidedX, body.oneSidedY);
+    return std::tuple(rules.layer, rules.mask, rules.group, rules.oneSidedX, rules.oneSidedY);
 }
 
 /// Numbers places; those nearer than the grain get one number.
@@ -181,14 +181,15 @@ void Weld::add(const PartOutline* outline)
     own_.push_back(*outline);
 }
 
-void Weld::run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const State& state, float typicalLength)
+void Weld::run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const RuleBook& rules,
+               const State& state, float typicalLength)
 {
     outlines_ = own_;
     for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outline = std::as_const(ownOf_)[p];
-    using Kind = decltype(kindOf(bodies[0]));
+    using Kind = decltype(kindOf(rules[0]));
     std::map<Kind, std::vector<Index>> kinds;
     for (Index i = 1; i < bodies.size(); ++i)
-        if (stands(bodies[i])) kinds[kindOf(bodies[i])].push_back(i);
+        if (stands(bodies[i])) kinds[kindOf(rules[bodies[i].rules])].push_back(i);
     for (const auto& [kind, group] : kinds) {
         if (group.size() < 2) continue;
         Welder welder(parts, bodies, state, outlines_, std::max(kNear * static_cast<double>(typicalLength), 1e-9));

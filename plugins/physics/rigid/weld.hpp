@@ -4,6 +4,7 @@
 
 #include "column.hpp"
 #include "contact.hpp"
+#include "rules.hpp"
 
 #include <utility>
 #include <vector>
@@ -15,7 +16,8 @@ public:
     /// The outline a part has by itself, or none; one call a part, in their order.
     void add(const PartOutline*);
     /// Works out the outlines of all parts from where their bodies are.
-    void run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const State&, float typicalLength);
+    void run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const RuleBook&, const State&,
+             float typicalLength);
 
     const PartOutline* outlineOf(const Part& part) const
     {
