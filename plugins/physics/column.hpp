@@ -21,6 +21,7 @@ public:
         values_.resize(count, usual_);
     }
     void fit() { values_.shrink_to_fit(); }
+    std::size_t capacity() const { return values_.capacity(); }
     /// Rows that have room.
     std::size_t size() const { return values_.size(); }
     std::vector<T>& values() { return values_; }

@@ -18,6 +18,13 @@ void makeRoom(std::size_t more, Vectors&... vectors)
     (grow(vectors), ...);
 }
 
+/// Bytes the vectors have, used or not.
+template <class... Vectors>
+std::size_t roomOf(const Vectors&... vectors)
+{
+    return ((vectors.capacity() * sizeof(vectors[0])) + ...);
+}
+
 /// Gives back what the vectors have to spare.
 template <class... Vectors>
 void fitRoom(Vectors&... vectors)

@@ -32,6 +32,25 @@ void fitRoom(State& state)
     fitRoom(walls.first, walls.second, walls.previous, walls.next, walls.outward, walls.firstEnd, walls.secondEnd);
 }
 
+std::size_t bytesOf(const State& state)
+{
+    const Nodes& nodes = state.nodes;
+    const Points& points = state.points;
+    const Walls& walls = state.walls;
+    const BodyReadings& readings = state.readings;
+    std::size_t sum =
+        roomOf(nodes.position, nodes.velocity, nodes.mass, nodes.invMass, nodes.angle, nodes.omega, nodes.rotation,
+               nodes.invInertia, nodes.torque, nodes.force) +
+        roomOf(points.node, points.local, points.position, points.normal, points.collidable) +
+        roomOf(walls.first, walls.second, walls.previous, walls.next, walls.outward, walls.firstEnd, walls.secondEnd) +
+        roomOf(readings.position, readings.velocity, readings.angle, readings.omega, readings.bounds,
+               readings.firstPoint) +
+        roomOf(state.bodies);
+    for (const BodyRecord& body : state.bodies)
+        if (body.soft) sum += sizeof(SoftRecord) + roomOf(body.soft->pieces, body.soft->restArms);
+    return sum;
+}
+
 void updatePoints(State& state)
 {
     Points& points = state.points;

@@ -158,6 +158,7 @@ struct State {
 
 /// Gives back the room there is to spare.
 void fitRoom(State&);
+std::size_t bytesOf(const State&);
 /// Moves the points after their nodes.
 void updatePoints(State&);
 /// Centre, angle, velocity, turning rate and box of each body, from its nodes and points.

@@ -117,7 +117,7 @@ bool World::skipStep()
     if (!onlySimple() || !rigid_.allAsleep(state_)) return false;
     stats_ = StepStats();
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());
-    rigid_.skip(stats_);
+    rigid_.skip();
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
     return true;

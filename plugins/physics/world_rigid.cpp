@@ -79,7 +79,10 @@ StepStats World::stats() const
 {
     reportIfAsked();
     if (settings_.allowSleep) islands();
-    return stats_;
+    StepStats stats = stats_;
+    stats.memory = bytesOf(state_) + rigid_.bytes() + queries_.bytes() + softContacts_.bytes() + softJoints_.bytes() +
+                   tears_.bytes() + reports_.capacity() * sizeof(Contact) + islands_.capacity() * sizeof(Index);
+    return stats;
 }
 
 JointHandle World::addJoint(const JointDef& def)

@@ -37,11 +37,7 @@ bool RigidStage::allAsleep(const State& state) const
            std::none_of(kinematic_.begin(), kinematic_.end(), [&](Index body) { return driven(body, state); });
 }
 
-void RigidStage::skip(StepStats& stats)
-{
-    events_.clear();
-    stats.memory = bytes();
-}
+void RigidStage::skip() { events_.clear(); }
 
 bool RigidStage::restDue(double dt)
 {

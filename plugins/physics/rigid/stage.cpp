@@ -245,7 +245,6 @@ void RigidStage::step(State& state, const WorldSettings& settings, double dt, St
     }
     noteTouches(large ? single_.changes() : double_.changes());
     breakJoints();
-    stats.memory = bytes();
 }
 
 template <class Real>
@@ -471,8 +470,8 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
 
 std::size_t RigidStage::bytes() const
 {
-    return arena_.bytes() + collider_.bytes() + single_.bytes() + double_.bytes() + joints_.capacity() * sizeof(Joint) +
-           bodyOf_.capacity() * sizeof(Index);
+    return roomOf(bodyOf_, watches_, group_, still_) + arena_.bytes() + collider_.bytes() + single_.bytes() +
+           double_.bytes() + joints_.capacity() * sizeof(Joint);
 }
 
 }  // namespace jet::physics

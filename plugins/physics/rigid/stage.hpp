@@ -64,7 +64,7 @@ public:
     /// Has the step nothing to do?
     bool allAsleep(const State&) const;
     /// In place of such a step.
-    void skip(StepStats&);
+    void skip();
     bool asleep(Index handle) const { return has(handle) && collider_.bodies()[bodyOf_[handle]].asleep; }
 
     void report(std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;

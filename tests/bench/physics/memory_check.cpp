@@ -17,8 +17,8 @@ constexpr int kFew = 4000, kMany = 20000;
 
 using Fill = std::function<void(PhysicsWorld&, int count)>;
 
-/// Bytes of a world, with all it makes for steps and for who looks at its bodies.
-double bytesOf(const Fill& fill, int count)
+/// Bytes of a world, with all it makes for steps and, if somebody does, for who looks at its bodies.
+double bytesOf(const Fill& fill, int count, bool look)
 {
     const std::size_t before = heapInUse();
     WorldSettings settings;
@@ -26,11 +26,14 @@ double bytesOf(const Fill& fill, int count)
     const auto world = physics::JetPhysics().createWorld(settings);
     fill(*world, count);
     for (int i = 0; i < 30; ++i) world->step(1.0 / 60);
-    world->bodies();
+    if (look) world->bodies();
     return static_cast<double>(heapInUse()) - static_cast<double>(before);
 }
 
-double bytesEach(const Fill& fill) { return (bytesOf(fill, kMany) - bytesOf(fill, kFew)) / (kMany - kFew); }
+double bytesEach(const Fill& fill, bool look = true)
+{
+    return (bytesOf(fill, kMany, look) - bytesOf(fill, kFew, look)) / (kMany - kFew);
+}
 
 RigidBodyDef boxAt(double x, double y, double halfWidth)
 {
@@ -74,11 +77,13 @@ std::size_t heapInUse()
 void printMemory()
 {
     const double box = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, false); });
+    const double unseen = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, false); }, false);
     const double resting = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, true); });
     const double particle = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 0, 0); });
     const double sprung = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 4, 0); });
     const double tearing = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 4, 2); });
     std::printf("rigid body (box)        %6.0f bytes\n", box);
+    std::printf("  nobody looks at       %6.0f bytes\n", unseen);
     std::printf("contact of two points   %6.0f bytes\n", resting - box);
     std::printf("particle                %6.0f bytes\n", particle);
     std::printf("spring                  %6.0f bytes\n", (sprung - particle) / 4);

@@ -1,6 +1,9 @@
-// A world that has come to its rhythm takes no more memory: every `operator new` of this program is counted.
+// A world that has come to its rhythm takes no more memory, and what it has is little: every `operator new` of this
+// program is counted.
 #include "lattices.hpp"
 #include "shape_worlds.hpp"
+
+#include <malloc.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -8,14 +11,21 @@
 
 namespace {
 
-std::atomic<long> allocations{0};
+std::atomic<long> allocations{0}, liveBytes{0};
 
 void* counted(std::size_t size, std::size_t alignment = alignof(std::max_align_t))
 {
     ++allocations;
     void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     if (memory == nullptr) throw std::bad_alloc();
+    liveBytes += static_cast<long>(malloc_usable_size(memory));
     return memory;
+}
+
+void freed(void* memory)
+{
+    liveBytes -= static_cast<long>(malloc_usable_size(memory));
+    std::free(memory);
 }
 
 }  // namespace
@@ -30,18 +40,20 @@ void* operator new[](std::size_t size, std::align_val_t alignment)
 {
     return counted(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { freed(memory); }
+void operator delete[](void* memory) noexcept { freed(memory); }
+void operator delete(void* memory, std::size_t) noexcept { freed(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { freed(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { freed(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { freed(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { freed(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { freed(memory); }
 
 namespace jet::physics::test {
 
 namespace {
+
+constexpr double kBoxBytes = 785;  // docs/physics.md, and a little for what the heap rounds up
 
 long allocationsOf(PhysicsWorld& world, int warmUp, int steps)
 {
@@ -120,6 +132,46 @@ TEST(SteadyStep, ASwingingSheetAllocatesNothing)
     sheet.movable[0] = 0;
     world->addSoftBody(sheet);
     EXPECT_EQ(allocationsOf(*world, 60, 300), 0);
+}
+
+struct Bytes {
+    double taken = 0, told = 0;  // of the heap; as the world says
+};
+
+Bytes bytesOfBoxes(int count, bool look)
+{
+    const long before = liveBytes;
+    WorldSettings settings;
+    settings.gravity = {0, 98.1};
+    auto world = JetPhysics().createWorld(settings);
+    for (int i = 0; i < count; ++i) world->addRigidBody(simple(box({20.0 * i, 0}, 10, 10)));
+    for (int i = 0; i < 30; ++i) {
+        world->step(kStep);
+        if (look) world->bodies();
+    }
+    const auto told = static_cast<double>(world->stats().memory);
+    return {static_cast<double>(liveBytes - before), told};
+}
+
+/// What a box more takes.
+Bytes bytesEach(bool look)
+{
+    const Bytes few = bytesOfBoxes(2000, look), many = bytesOfBoxes(6000, look);
+    return {(many.taken - few.taken) / 4000, (many.told - few.told) / 4000};
+}
+
+TEST(Memory, ABoxTakesNoMoreThanItDid)
+{
+    EXPECT_LT(bytesEach(true).taken, kBoxBytes);
+    EXPECT_LT(bytesEach(false).taken, kBoxBytes);
+}
+
+TEST(Memory, WorldsTellWhatTheyTake)
+{
+    for (const bool look : {false, true}) {
+        const Bytes each = bytesEach(look);
+        EXPECT_NEAR(each.told, each.taken, 0.03 * each.taken) << look;
+    }
 }
 
 }  // namespace
