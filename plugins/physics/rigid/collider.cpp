@@ -1,6 +1,7 @@
 // Where bodies are, their boxes, and the pairs whose boxes meet.
 #include "collider.hpp"
 
+#include "manifold.hpp"
 #include "room.hpp"
 
 #include <chrono>
@@ -267,12 +268,18 @@ FatBox Collider::boxOf(Index index, const Pose& pose, float room, double dt) con
 
 FatBox Collider::boxAround(const Vec2f* corners, int count, float room, const Pose& pose, double dt)
 {
-    float minX = 3e38F, minY = 3e38F, maxX = -3e38F, maxY = -3e38F;
-    for (int i = 0; i < count; ++i) {
-        const Vec2f at = turned(pose.turn, corners[i]);
-        minX = std::min(minX, at.x), maxX = std::max(maxX, at.x);
-        minY = std::min(minY, at.y), maxY = std::max(maxY, at.y);
+    // Two corners at a time; of an odd number the last one comes with the first again.
+    using namespace manifold;
+    const Four along = allOf(pose.turn.x), across{-pose.turn.y, pose.turn.y, -pose.turn.y, pose.turn.y};
+    Four lowest = allOf(3e38F), highest = allOf(-3e38F);
+    for (int i = 0; i < count; i += 2) {
+        const Vec2f two[] = {corners[i], corners[i + 1 < count ? i + 1 : 0]};
+        const Four corner = load(two);
+        const Four at = along * corner + across * __builtin_shufflevector(corner, corner, 1, 0, 3, 2);
+        lowest = at < lowest ? at : lowest, highest = at > highest ? at : highest;
     }
+    const float minX = std::min(lowest[0], lowest[2]), minY = std::min(lowest[1], lowest[3]);
+    const float maxX = std::max(highest[0], highest[2]), maxY = std::max(highest[1], highest[3]);
     const float stepX = pose.velocityX * static_cast<float>(dt), stepY = pose.velocityY * static_cast<float>(dt);
     const float straight = std::sqrt(stepX * stepX + stepY * stepY);
     // Far from the origin single precision has gaps; they are added.

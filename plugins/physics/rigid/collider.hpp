@@ -88,7 +88,7 @@ public:
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
     void stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves, const std::vector<double>& turns,
-                        double dt) const;
+                        double dt);
 
     const Rules& rulesOf(const RigidBody& body) const { return rules_[body.rules]; }
     void setRules(RigidBody&, const Rules&);
@@ -161,6 +161,7 @@ private:
     void findPairs(const WorldSettings&, Pool&, Arena&);
     void addPair(Index partA, Index partB, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
+    std::size_t nextHit(std::size_t from) const;
     bool surprise(Index body, float gain, double dt);
     bool apart(Index partA, Index partB) const;
     Relative relative(Index bodyA, Index bodyB) const;
@@ -205,6 +206,7 @@ private:
     std::vector<Place> places_;       // [contacts]
     std::vector<Nearing> nearing_;    // [contacts]
     std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step?
+    std::vector<float> moved_;        // [bodies] units in this step, at least; scratch of stopTunnelling()
     std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
     std::vector<double> reached_;     // [bodies] units they may have come at the end of this step
     std::vector<Index> free_;         // gaps in the contacts

@@ -2,6 +2,7 @@
 #include "collider.hpp"
 
 #include <cmath>
+#include <cstring>
 
 namespace jet::physics {
 
@@ -71,7 +72,7 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
 {
     if (!fast_) return false;
     bool grew = false;
-    for (Index i = 0; i < contacts_.size(); ++i) {
+    for (std::size_t i = nextHit(0); i < contacts_.size(); i = nextHit(i + 1)) {
         const Nearing& n = nearing_[i];
         const float surprised = surprised_ ? std::max(surprise_[n.bodyA], surprise_[n.bodyB]) : 0;
         if (hits_[i] == 0 && surprised == 0) continue;
@@ -90,6 +91,18 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     settleDrifts();
     findPairs(settings, pool, arena);
     return true;
+}
+
+/// The next contact of a hit; when bodies are surprised, any.
+std::size_t Collider::nextHit(std::size_t from) const
+{
+    if (surprised_) return from;
+    for (std::uint64_t eight = 0; from + sizeof eight <= hits_.size(); from += sizeof eight) {
+        std::memcpy(&eight, &hits_[from], sizeof eight);
+        if (eight != 0) break;
+    }
+    while (from < hits_.size() && hits_[from] == 0) ++from;
+    return from;
 }
 
 void Collider::settleDrifts()
@@ -147,12 +160,14 @@ float Collider::untilCentrePasses(const RigidContact& c, const Vec2& relativeMov
 }
 
 void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves,
-                              const std::vector<double>& turns, double dt) const
+                              const std::vector<double>& turns, double dt)
 {
     allowed.assign(bodies_.size(), 1.0F);
     if (contacts_.empty()) return;
     bool any = false;
+    moved_.resize(bodies_.size());
     for (Index i = 1; i < bodies_.size(); ++i) {
+        moved_[i] = 1.001F * static_cast<float>(moves[i].norm());
         if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
         any |= allowed[i] < 1;
     }
@@ -164,6 +179,7 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
     }
     for (Index i = 0; i < contacts_.size(); ++i) {
         const Nearing& n = nearing_[i];
+        if (moved_[n.bodyA] + moved_[n.bodyB] <= n.thin) continue;
         const Vec2 relativeMove = moves[n.bodyB] - moves[n.bodyA];
         if (!(relativeMove.squaredNorm() > static_cast<double>(n.thin) * static_cast<double>(n.thin))) continue;
         const RigidContact& c = contacts_[i];
