@@ -102,6 +102,8 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
                     Arena& arena, const Domains& domains)
 {
     const auto start = std::chrono::steady_clock::now();
+    looker_ = &looker(choiceOf(settings)), sieve_ = &sieve(choiceOf(settings));
+    sweep_.use(*sieve_);
     if (typical_ == 0 && !parts_.empty()) measure();
     if (rearranged_ || !welded_) weld_.run(parts_, bodies_, rules_, state, typical_);
     if (rearranged_) {
@@ -341,7 +343,6 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
 void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena)
 {
     if (!sweep_.anyMoved()) return;
-    sweep_.use(sieve(choiceOf(settings)));
     sweep_.begin(arena);
     const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
     if (foundBy_.size() < blocks) foundBy_.resize(blocks);
@@ -349,11 +350,11 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena
         auto& found = foundBy_[block];
         found.clear();
         const std::size_t first = block * kSoughtABlock, last = std::min(sweep_.parts(), first + kSoughtABlock);
-        sweep_.seek(first, last, [&](Index a, Index b) {
-            if (known_.contains(RigidContact::keyOf(a, b))) return;
+        sweep_.seek(first, last, [&](Index a, Index b) { found.emplace_back(a, b); });
+        std::erase_if(found,
+                      [&](const auto& pair) { return known_.contains(RigidContact::keyOf(pair.first, pair.second)); });
+        for (auto& [a, b] : found)
             if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
-            found.emplace_back(a, b);
-        });
     });
     sweep_.finish(arena);
     found_.clear();

@@ -81,9 +81,9 @@ public:
     /// Brings the pair's points up to date. Different contacts may be updated at once.
     Look update(RigidContact&, double dt);
     /// The same for many, eight at a time.
-    void update(const std::vector<Index>& which, std::vector<Look>& looks, double dt, const Looker&);
+    void update(const std::vector<Index>& which, std::vector<Look>& looks, double dt);
     /// Of up to eight contacts without points: a bit for each that update() would keep without points, and it is done.
-    std::uint32_t sift(const Index* which, std::size_t count, double dt, const Sieve&);
+    std::uint32_t sift(const Index* which, std::size_t count, double dt);
     void forget(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
@@ -178,7 +178,7 @@ private:
     enum Kind : std::uint8_t { kCircles, kDiscs, kPolygons, kAlone, kKinds };
     Kind kindOf(const RigidContact&) const;
     void update(Kind, const std::size_t* places, std::size_t count, const std::vector<Index>& which,
-                std::vector<Look>& looks, double dt, const Looker&);
+                std::vector<Look>& looks, double dt);
     Look take(RigidContact&, const Seen&, std::size_t lane, double dt);
     bool noteHit(const RigidContact&, bool fast);
     bool reuse(RigidContact&, const Relative&, float reach) const;
@@ -188,6 +188,8 @@ private:
     void foresee(RigidContact&, const Relative&, double dt) const;
     void decideSide(RigidContact&) const;
 
+    const Looker* looker_ = &sse2::pairLooker;
+    const Sieve* sieve_ = &sse2::pairSieve;
     std::vector<RigidBody> bodies_{RigidBody()};
     RuleBook rules_;
     std::vector<Part> parts_;
@@ -217,6 +219,7 @@ private:
 };
 
 /// When the parts come to touch, as a part of dt, moving with the velocities of their poses; > 1: not in this step.
-float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& poseB, double dt, float target);
+float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& poseB, double dt, float target,
+                   const Looker&);
 
 }  // namespace jet::physics

@@ -134,7 +134,7 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             block.due.push_back(index[lane]);
         }
     }
-    collider.update(block.due, block.looks, dt, looker(shape_.choice));
+    collider.update(block.due, block.looks, dt);
     for (std::size_t i = 0; i < block.due.size(); ++i) {
         const Collider::Look& look = block.looks[i];
         const RigidContact& c = contacts[block.due[i]];
@@ -162,25 +162,24 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
 template <class Real>
 void Solver<Real>::refreshIdle(Collider& collider, double dt, std::size_t first, std::size_t last, Block& block)
 {
-    const auto& places = collider.places();
     // Which are due follows no pattern: none is jumped over.
     block.due.resize(last - first);
+    Index* const list = block.due.data();
+    const Place* const places = collider.places().data();
     std::size_t due = 0;
     for (auto contact = static_cast<Index>(first); contact < last; ++contact) {
-        block.due[due] = contact;
-        due += places[contact] == kIdle && collider.nears(contact);
+        list[due] = contact;
+        due += static_cast<std::size_t>(places[contact] == kIdle) & static_cast<std::size_t>(collider.nears(contact));
     }
-    block.due.resize(due);
-    const Sieve& pairs = sieve(shape_.choice);
     std::size_t left = 0;
     for (std::size_t at = 0; at < due; at += Sieve::kPairs) {
         const std::size_t count = std::min<std::size_t>(Sieve::kPairs, due - at);
-        std::uint32_t near = ~collider.sift(&block.due[at], count, dt, pairs) & ((1U << count) - 1);
+        std::uint32_t near = ~collider.sift(&block.due[at], count, dt) & ((1U << count) - 1);
         for (; near != 0; near &= near - 1)
             block.due[left++] = block.due[at + static_cast<std::size_t>(__builtin_ctz(near))];
     }
     block.due.resize(left);
-    collider.update(block.due, block.looks, dt, looker(shape_.choice));
+    collider.update(block.due, block.looks, dt);
     for (std::size_t i = 0; i < left; ++i) {
         const Collider::Look& look = block.looks[i];
         const RigidContact& c = collider.contacts()[block.due[i]];

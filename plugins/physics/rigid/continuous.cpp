@@ -19,7 +19,7 @@ void Collider::foresee(RigidContact& c, const Relative& at, double dt) const
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
     Pose poseA = poses_[c.bodyA], poseB = poses_[c.bodyB];
     if (fromBehind(c)) return;
-    const float hit = timeOfImpact(a, b, poseA, poseB, dt, c.slop);
+    const float hit = timeOfImpact(a, b, poseA, poseB, dt, c.slop, *looker_);
     if (hit > 1) return;
     const auto moveOn = [&](Pose& pose) {
         const float t = hit * static_cast<float>(dt);
@@ -39,7 +39,8 @@ void Collider::foresee(RigidContact& c, const Relative& at, double dt) const
     c.foreseen = c.due = c.count > 0;  // never reused
 }
 
-float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& poseB, double dt, float target)
+float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& poseB, double dt, float target,
+                   const Looker& looker)
 {
     const float dtf = static_cast<float>(dt);
     const Vec2f velocity{poseB.velocityX - poseA.velocityX, poseB.velocityY - poseA.velocityY};
@@ -57,7 +58,7 @@ float timeOfImpact(const Part& a, const Part& b, const Pose& poseA, const Pose& 
         const Vec2f qB = turned({static_cast<float>(turnB.x()), static_cast<float>(turnB.y())}, poseB.turn);
         const Vec2f apart{static_cast<float>(poseB.x - poseA.x + static_cast<double>(velocity.x) * t),
                           static_cast<float>(poseB.y - poseA.y + static_cast<double>(velocity.y) * t)};
-        const Distance d = distanceOf(a, b, {turnedBack(qA, apart), turnedBack(qA, qB)});
+        const Distance d = distanceOf(a, b, {turnedBack(qA, apart), turnedBack(qA, qB)}, looker);
         if (d.distance <= target) return t / dtf;
         const Vec2f seen = carried ? velocity + swing * Vec2f{apart.y, -apart.x} : velocity;
         const float closing = -dot(turned(qA, d.normal), seen) + turning;
@@ -198,7 +199,7 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
         };
         actual(a, c.bodyA), actual(b, c.bodyB);
         // A little deeper than contacts come by themselves.
-        const float hit = timeOfImpact(parts_[c.partA], parts_[c.partB], a, b, dt, -2 * c.slop);
+        const float hit = timeOfImpact(parts_[c.partA], parts_[c.partB], a, b, dt, -2 * c.slop, *looker_);
         if (hit > 1 || hit <= 0) continue;  // lies in it already: to be pushed out, not to be held
         for (const Index body : {c.bodyA, c.bodyB})
             if (bodies_[body].moves) allowed[body] = std::min(allowed[body], hit);

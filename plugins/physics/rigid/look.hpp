@@ -32,6 +32,11 @@ struct Seen {
     float speed[8] = {};       // of the first point, in lengths of the smaller part a second: Collider::hitSpeed()
 };
 
+struct SidePoints {
+    Vec2f onA, onB;
+    float squared = 0;  // distance
+};
+
 /// Eight pairs of parts without outlines, none of them one-sided; some may be the same.
 struct Looker {
     static constexpr int kPairs = 8;
@@ -41,6 +46,8 @@ struct Looker {
     void (*discs)(const LookInput&, const Index* which, int most, Seen&) = nullptr;
     /// Of two polygons or capsules.
     void (*polygons)(const LookInput&, const Index* which, int mostA, int mostB, Seen&) = nullptr;
+    /// The nearest points of the sides of two parts, in A's frame: the first such pair, side by side of A.
+    SidePoints (*nearestSides)(const Part& a, const Part& b, const Relative& bInA) = nullptr;
 };
 const Looker& looker(KernelChoice);
 

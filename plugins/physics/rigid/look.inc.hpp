@@ -459,7 +459,39 @@ void polygons(const LookInput& in, const Index* which, int mostA, int mostB, See
            [&](const Pairs& p, const Bits& needed) { return collidePolygons(p, mostA, mostB, needed); });
 }
 
+/// B's sides in lanes, against each of A's.
+SidePoints nearestSides(const Part& a, const Part& b, const Relative& bInA)
+{
+    float x[9], y[9];
+    for (int i = 0; i <= 8; ++i) {
+        const Vec2f at = b.corners[i], turn = bInA.turn;
+        x[i] = bInA.move.x + (turn.x * at.x - turn.y * at.y), y[i] = bInA.move.y + (turn.y * at.x + turn.x * at.y);
+    }
+    Sides s;
+    s.b1 = {load(x), load(y)}, s.b2 = {load(x + 1), load(y + 1)};
+    Eight best = all(3e38F);
+    Bits side = all(0);
+    Vectors onA{all(0.0F), all(0.0F)}, onB = onA;
+    for (int i = 0; i < a.count; ++i) {
+        s.a1 = {all(a.corners[i].x), all(a.corners[i].y)}, s.a2 = {all(a.corners[i + 1].x), all(a.corners[i + 1].y)};
+        const NearestPoints n = nearestOf(s);
+        const Vectors apart = n.onB - n.onA;
+        const Eight squared = dot(apart, apart);
+        const Bits nearer = squared < best;
+        best = choose(nearer, squared, best), side = choose(nearer, all(i), side);
+        onA = choose(nearer, n.onA, onA), onB = choose(nearer, n.onB, onB);
+    }
+    float squares[8], points[4][8];
+    std::int32_t sides[8];
+    store(squares, best), store(sides, side);
+    store(points[0], onA.x), store(points[1], onA.y), store(points[2], onB.x), store(points[3], onB.y);
+    int first = 0;
+    for (int j = 1; j < b.count; ++j)
+        if (squares[j] < squares[first] || (squares[j] == squares[first] && sides[j] < sides[first])) first = j;
+    return {{points[0][first], points[1][first]}, {points[2][first], points[3][first]}, squares[first]};
+}
+
 }  // namespace
 
 extern const Looker pairLooker;
-const Looker pairLooker{circles, discs, polygons};
+const Looker pairLooker{circles, discs, polygons, nearestSides};

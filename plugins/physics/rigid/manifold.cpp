@@ -1,6 +1,8 @@
 // Touching points of two rounded convex parts, by separating axes and clipping (Catto, "Contact manifolds", GDC 2007).
 #include "manifold.hpp"
 
+#include "look.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -226,20 +228,12 @@ Manifold collide(const Part& a, const Part& b, const Relative& at, float reach)
     return sides(a, Placed(b, at), at, reach);
 }
 
-Distance distanceOf(const Part& a, const Part& b, const Relative& at)
+Distance distanceOf(const Part& a, const Part& b, const Relative& at, const Looker& looker)
 {
-    const Placed placed(b, at);
+    const SidePoints nearest = looker.nearestSides(a, b, at);
     Distance d;
-    float best = 3e38F;
-    for (int i = 0; i < a.count; ++i) {
-        for (int j = 0; j < placed.count; ++j) {
-            const Nearest n = nearestOfSegments(a.corners[i], a.corners[(i + 1) % a.count], placed.corners[j],
-                                                placed.corners[(j + 1) % placed.count]);
-            const Vec2f apart = n.onB - n.onA;
-            const float squared = dot(apart, apart);
-            if (squared < best) best = squared, d.onA = n.onA, d.onB = n.onB;
-        }
-    }
+    d.onA = nearest.onA, d.onB = nearest.onB;
+    const Placed placed(b, at);
     float inside = 3e38F;
     Vec2f normal{1, 0};
     if (a.count > 2 || placed.count > 2) {
@@ -249,7 +243,7 @@ Distance distanceOf(const Part& a, const Part& b, const Relative& at)
         inside = std::max(separationA, separationB);
         normal = separationA >= separationB ? a.normals[sideA] : -placed.normals[sideB];
     }
-    const float length = std::sqrt(best);
+    const float length = std::sqrt(nearest.squared);
     d.distance = (inside < 0 ? inside : length) - a.radius - b.radius;
     d.normal = inside < 0 || length < 1e-12F ? normal : (1 / length) * (d.onB - d.onA);
     d.onA = d.onA + a.radius * d.normal, d.onB = d.onB - b.radius * d.normal;

@@ -77,12 +77,13 @@ Part makePart(const Vec2* corners, int count, double radius);
 /// Touching points of two parts that are no farther apart than `reach` units.
 Manifold collide(const Part& a, const Part& b, const Relative& bInA, float reach);
 
+struct Looker;
 /// The distance of two parts, with the nearest points and the normal from A to B, all in A's frame. Exact while they
 /// are apart; negative, and only about as deep as they are, when they overlap.
 struct Distance {
     float distance = 0;
     Vec2f onA, onB, normal;
 };
-Distance distanceOf(const Part& a, const Part& b, const Relative& bInA);
+Distance distanceOf(const Part& a, const Part& b, const Relative& bInA, const Looker&);
 
 }  // namespace jet::physics

@@ -96,7 +96,7 @@ Collider::Kind Collider::kindOf(const RigidContact& c) const
     return static_cast<Kind>(alone ? kAlone : (a.count > 1) + (b.count > 1));  // a circle is always second
 }
 
-void Collider::update(const std::vector<Index>& which, std::vector<Look>& looks, double dt, const Looker& looker)
+void Collider::update(const std::vector<Index>& which, std::vector<Look>& looks, double dt)
 {
     looks.resize(which.size());
     std::size_t waiting[kKinds][Looker::kPairs], count[kKinds] = {};
@@ -104,15 +104,15 @@ void Collider::update(const std::vector<Index>& which, std::vector<Look>& looks,
         const Kind kind = kindOf(contacts_[which[i]]);
         waiting[kind][count[kind]++] = i;
         if (count[kind] < Looker::kPairs) continue;
-        update(kind, waiting[kind], Looker::kPairs, which, looks, dt, looker);
+        update(kind, waiting[kind], Looker::kPairs, which, looks, dt);
         count[kind] = 0;
     }
     for (const Kind kind : {kCircles, kDiscs, kPolygons, kAlone})
-        if (count[kind] > 0) update(kind, waiting[kind], count[kind], which, looks, dt, looker);
+        if (count[kind] > 0) update(kind, waiting[kind], count[kind], which, looks, dt);
 }
 
 void Collider::update(Kind kind, const std::size_t* places, std::size_t count, const std::vector<Index>& which,
-                      std::vector<Look>& looks, double dt, const Looker& looker)
+                      std::vector<Look>& looks, double dt)
 {
     if (kind == kAlone || count < kFewest) {
         for (std::size_t i = 0; i < count; ++i) looks[places[i]] = update(contacts_[which[places[i]]], dt);
@@ -130,9 +130,9 @@ void Collider::update(Kind kind, const std::size_t* places, std::size_t count, c
         static_cast<float>(dt)};
     Seen seen;
     switch (kind) {
-    case kCircles: looker.circles(input, lanes, seen); break;
-    case kDiscs: looker.discs(input, lanes, mostA, seen); break;
-    default: looker.polygons(input, lanes, mostA, mostB, seen);
+    case kCircles: looker_->circles(input, lanes, seen); break;
+    case kDiscs: looker_->discs(input, lanes, mostA, seen); break;
+    default: looker_->polygons(input, lanes, mostA, mostB, seen);
     }
     for (std::size_t i = 0; i < count; ++i) looks[places[i]] = take(contacts_[lanes[i]], seen, i, dt);
 }
@@ -157,24 +157,19 @@ Collider::Look Collider::take(RigidContact& c, const Seen& seen, std::size_t lan
     return look;
 }
 
-std::uint32_t Collider::sift(const Index* which, std::size_t count, double dt, const Sieve& sieve)
+std::uint32_t Collider::sift(const Index* which, std::size_t count, double dt)
 {
     if (surprised_) return 0;
     Index lanes[Sieve::kPairs];
-    float gaps[Sieve::kPairs];
-    std::uint32_t bare = 0;
-    for (std::size_t i = 0; i < Sieve::kPairs; ++i) {
-        lanes[i] = which[std::min(i, count - 1)];
-        const RigidContact& c = contacts_[lanes[i]];
-        if (i < count && c.count == 0 && !c.passing && !c.touching) bare |= 1U << i;
-    }
+    float until[Sieve::kPairs];
+    for (std::size_t i = 0; i < Sieve::kPairs; ++i) lanes[i] = which[std::min(i, count - 1)];
     const SiftInput input{contacts_.data(), poses_.data(), sweep_.boxes(), static_cast<float>(dt), kSpeculative};
-    const std::uint32_t apart = bare & sieve.stayApart(input, lanes, gaps);
+    const std::uint32_t apart = sieve_->stayApart(input, lanes, until) & ((1U << count) - 1);
     for (std::uint32_t rest = apart; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
-        RigidContact& c = contacts_[lanes[lane]];
-        c.due = false;
-        noteGap(c, gaps[lane]);
+        Nearing& n = nearing_[lanes[lane]];
+        contacts_[lanes[lane]].due = false;
+        n.until = way_[n.bodyA] + way_[n.bodyB] + static_cast<double>(until[lane]);
     }
     return apart;
 }

@@ -36,9 +36,9 @@ struct Sieve {
     static constexpr int kPairs = 8;
     static constexpr std::size_t kMost = 1024;  // boxes looked through at once
     static constexpr float kLonger = 3;
-    /// A bit for each contact whose boxes meet and whose bodies cannot touch in this step, though they move; `gaps`:
-    /// units they are apart at least. `which`: eight contacts, some may be the same.
-    std::uint32_t (*stayApart)(const SiftInput&, const Index* which, float* gaps) = nullptr;
+    /// A bit for each contact without points whose boxes meet and whose bodies cannot touch in this step, though they
+    /// move; `until`: units they may come nearer before it gets points. `which`: eight contacts, some may be the same.
+    std::uint32_t (*stayApart)(const SiftInput&, const Index* which, float* until) = nullptr;
     /// Which boxes of the stretches, kMost together, meet the box and did not before, or are more than kLonger times
     /// longer or shorter. `hits` has room for kMost + kPairs; how many there are is returned.
     std::size_t (*near)(const BoxesInCells&, const SoughtBox&, const Stretch*, std::size_t count,

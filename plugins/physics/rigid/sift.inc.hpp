@@ -3,7 +3,7 @@
 
 namespace {
 
-std::uint32_t stayApart(const SiftInput& in, const Index* which, float* gaps)
+std::uint32_t stayApart(const SiftInput& in, const Index* which, float* until)
 {
     const RigidContact* c[8];
     const Pose *poseA[8], *poseB[8];
@@ -17,14 +17,17 @@ std::uint32_t stayApart(const SiftInput& in, const Index* which, float* gaps)
     Eight oldX, oldY, oldCosine, oldSine, slop, gap, second, reach;
     gather([&](int i) { return &c[i]->at; }, oldX, oldY, oldCosine, oldSine);
     gather([&](int i) { return &c[i]->slop; }, slop, gap, second, reach);
+    Eight flags, more, ids, impulse;
+    gather([&](int i) { return &c[i]->count; }, flags, more, ids, impulse);
+    const Bits bare = (bitsIn(flags) & 0xffffff) == 0;  // neither points, nor touching, nor passing
     const Eight travel = closingWay(a, b, dx, dy, in.dt);
     // Collider::staysApart()
     const Eight movedX = a.cosine * dx + a.sine * dy - oldX, movedY = a.cosine * dy - a.sine * dx - oldY;
     const Eight turnedX = a.cosine * b.cosine + a.sine * b.sine - oldCosine,
                 turnedY = a.cosine * b.sine - a.sine * b.cosine - oldSine;
     gap = gap - root(movedX * movedX + movedY * movedY) - root(turnedX * turnedX + turnedY * turnedY) * b.reach;
-    store(gaps, gap);
-    return bitsOf((gap > in.speculative * slop + travel) & meeting(in.boxes, c));
+    store(until, gap - in.speculative * slop);
+    return bitsOf(bare & (gap > in.speculative * slop + travel) & meeting(in.boxes, c));
 }
 
 std::size_t near(const BoxesInCells& boxes, const SoughtBox& box, const Stretch* stretches, std::size_t count,

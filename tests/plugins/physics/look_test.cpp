@@ -1,6 +1,7 @@
 // A full look at eight pairs gives each of them what it gets alone, to the bit, with either instruction set: in heaps,
 // in one place, thousands of units away, and with parts that are hardly there.
 #include "rigid/look.hpp"
+#include "rigid/manifold.hpp"
 
 #include <gtest/gtest.h>
 
@@ -272,6 +273,35 @@ TEST(Look, EightPairsGetWhatEachOfThemGetsAlone)
             EXPECT_GT(tally.none, 20U) << kind;
             EXPECT_GT(tally.one, 20U) << kind;
             EXPECT_TRUE(kind < 2 || tally.two > 100);
+        }
+    }
+}
+
+/// Each side of A against each of B.
+SidePoints nearestOneByOne(const Part& a, const Part& b, const Relative& at)
+{
+    SidePoints best{{}, {}, 3e38F};
+    for (int i = 0; i < a.count; ++i) {
+        for (int j = 0; j < b.count; ++j) {
+            const auto placed = [&](int k) { return at.move + turned(at.turn, b.corners[k % b.count]); };
+            const manifold::Nearest n =
+                manifold::nearestOfSegments(a.corners[i], a.corners[(i + 1) % a.count], placed(j), placed(j + 1));
+            const Vec2f apart = n.onB - n.onA;
+            if (const float squared = dot(apart, apart); squared < best.squared) best = {n.onA, n.onB, squared};
+        }
+    }
+    return best;
+}
+
+TEST(Look, TheNearestSidesAreTheFirstThatOneByOneGives)
+{
+    const World world = Heap(5).make();
+    for (const KernelChoice choice : {KernelChoice::Sse2, KernelChoice::Best}) {
+        for (const RigidContact& c : world.contacts) {
+            const Part &a = world.parts[c.partA], &b = world.parts[c.partB];
+            const Relative at = relative(world.poses[c.bodyA], world.poses[c.bodyB]);
+            const SidePoints wide = looker(choice).nearestSides(a, b, at), alone = nearestOneByOne(a, b, at);
+            ASSERT_EQ(std::memcmp(&wide, &alone, sizeof wide), 0) << wide.squared << " " << alone.squared;
         }
     }
 }
