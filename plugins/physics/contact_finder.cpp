@@ -22,6 +22,14 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
 
 bool meetsItself(const BodyRecord& body) { return body.meetsOwn() && !body.fixed && body.enabled; }
 
+/// In the midst of a step.
+void readAgain(State& state)
+{
+    updatePoints(state);
+    for (Index handle = 0; handle < state.bodies.size(); ++handle)
+        if (!state.bodies[handle].rigid) updateReading(state, handle);
+}
+
 ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSettings& settings)
 {
     const MaterialPair& pair =
@@ -38,8 +46,8 @@ ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSett
 
 }  // namespace
 
-void ContactFinder::find(State& state, const WorldSettings& settings, double dt, std::vector<ContactPoint>& contacts,
-                         StepStats& stats)
+void ContactFinder::find(State& state, const WorldSettings& settings, double dt, bool first,
+                         std::vector<ContactPoint>& contacts, StepStats& stats)
 {
     const auto start = std::chrono::steady_clock::now();
     // Nothing can meet where there is only one body.
@@ -51,7 +59,7 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
         contacts.clear();
         return;
     }
-    updatePoints(state);
+    if (!first) readAgain(state);
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
     for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);
@@ -209,33 +217,41 @@ void ContactFinder::predict(const State& state, const WorldSettings& settings, d
     motions_.assign(state.bodies.size(), Motion());
     budgets_.assign(state.bodies.size(), 0.0);
     for (Index handle = 0; handle < state.bodies.size(); ++handle)
-        predictBody(state, state.bodies[handle], settings, dt, motions_[handle], budgets_[handle]);
+        predictBody(state, handle, settings, dt, motions_[handle], budgets_[handle]);
     position_ = state.nodes.position;
     velocity_ = state.nodes.velocity;
     angle_ = state.nodes.angle;
     omega_ = state.nodes.omega;
 }
 
-void ContactFinder::predictBody(const State& state, const BodyRecord& body, const WorldSettings& settings, double dt,
+void ContactFinder::predictBody(const State& state, Index handle, const WorldSettings& settings, double dt,
                                 Motion& motion, double& budget) const
 {
+    const BodyRecord& body = state.bodies[handle];
     const Nodes& nodes = state.nodes;
+    const Index first = body.nodes.first;
     if (!body.enabled) return;
-    for (Index p = body.points.first; p < body.points.end(); ++p) motion.reach.extend(state.points.position[p]);
+    if (body.rigid) {
+        for (Index p = body.points.first; p < body.points.end(); ++p) motion.reach.extend(state.points.position[p]);
+    } else if (body.points.count > 0) {
+        motion.reach = state.readings.bounds[handle];
+    }
     if (body.fixed || body.nodes.count == 0) return;
 
     double spread = 0;
     if (body.rigid) {
-        motion.centre = nodes.position[body.nodes.first];
-        motion.velocity = nodes.velocity[body.nodes.first];
-        motion.omega = nodes.omega[body.nodes.first];
+        motion.centre = nodes.position[first];
+        motion.velocity = nodes.velocity[first];
+        motion.omega = nodes.omega[first];
     } else {
-        const Index first = body.nodes.first;
+        motion.centre = state.readings.position[handle];
+        motion.velocity = state.readings.velocity[handle];
+        motion.omega = state.readings.omega[handle];
         const soft::Cloud cloud{nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first], nullptr,
                                 body.nodes.count};
-        const soft::CloudSums sums = clouds_->sums(cloud);
-        motion.centre = {sums.x, sums.y}, motion.velocity = {sums.vx, sums.vy}, motion.omega = sums.omega();
-        spread = std::sqrt(clouds_->stray(cloud, {sums.x, sums.y, sums.vx, sums.vy, motion.omega}).speed);
+        const soft::CloudMotion rigid{motion.centre.x(), motion.centre.y(), motion.velocity.x(), motion.velocity.y(),
+                                      motion.omega};
+        spread = std::sqrt(clouds_->stray(cloud, rigid).speed);
     }
     const double radius = 0.5 * motion.reach.size().norm();
     const double turning = std::min(std::abs(motion.omega) * dt, 2.0) * radius;

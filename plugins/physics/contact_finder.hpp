@@ -11,8 +11,9 @@ class ContactFinder {
 public:
     void use(const soft::CloudKernels& kernels) { clouds_ = &kernels; }
 
-    /// Contacts that serve the coming `dt` seconds, in ascending order of (point, wall).
-    void find(State&, const WorldSettings&, double dt, std::vector<ContactPoint>& contacts, StepStats&);
+    /// Contacts that serve the coming `dt` seconds, in ascending order of (point, wall). `first`: of the step; points
+    /// and readings are those of the nodes then.
+    void find(State&, const WorldSettings&, double dt, bool first, std::vector<ContactPoint>& contacts, StepStats&);
     /// Appends those contacts the last find() dropped that had pushed in this step: they are over, but they happened.
     void collectEnded(std::span<const ContactPoint> contacts, std::vector<ContactPoint>& ended) const;
     /// Has a body moved, since find(), further from its prediction than its contacts allow for? `elapsed`: seconds.
@@ -36,7 +37,7 @@ private:
     bool expectHits(const State&, double dt);
     void readBorders(State&);
     void predict(const State&, const WorldSettings&, double dt);
-    void predictBody(const State&, const BodyRecord&, const WorldSettings&, double dt, Motion&, double& budget) const;
+    void predictBody(const State&, Index body, const WorldSettings&, double dt, Motion&, double& budget) const;
     void collidePairs(const State&, const WorldSettings&, double dt, std::span<const ContactPoint> previous,
                       std::vector<ContactPoint>& contacts);
     static void carryOver(const State&, std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts);

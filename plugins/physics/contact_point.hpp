@@ -26,7 +26,9 @@ struct ContactPoint {
     bool firstInset = false, secondInset = false;  // near that end the wall leaves the point to its neighbour
 
     bool plain = false;  // only particles: nothing here turns
+    bool lone = false;   // a particle at a wall that never moves
     Index nodeA = 0, nodeB0 = 0, nodeB1 = 0;
+    Vec2 first, edge;  // lone: the wall
 
     // Refreshed each substep.
     bool active = false;

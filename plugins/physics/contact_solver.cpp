@@ -20,7 +20,11 @@ void ContactSet::begin(const State& state)
         c.nodeB0 = state.points.node[state.walls.first[c.wall]];
         c.nodeB1 = state.points.node[state.walls.second[c.wall]];
         c.plain = !state.bodies[c.bodyA].rigid && !state.bodies[c.bodyB].rigid;
+        c.lone = !state.bodies[c.bodyA].rigid && state.bodies[c.bodyB].fixed;
         c.active = false;
+        if (!c.lone) continue;
+        c.first = state.pointNow(state.walls.first[c.wall]);
+        c.edge = state.pointNow(state.walls.second[c.wall]) - c.first;
     }
 }
 
@@ -42,6 +46,7 @@ ContactSolver::Softness ContactSolver::softness(double hertz, double dampingRati
 Vec2 ContactSolver::relativeVelocity(const ContactPoint& c) const
 {
     const Nodes& nodes = state_.nodes;
+    if (c.lone) return nodes.velocity[c.nodeA];
     if (c.plain)
         return nodes.velocity[c.nodeA] - c.weightB0 * nodes.velocity[c.nodeB0] - c.weightB1 * nodes.velocity[c.nodeB1];
     return nodes.velocityAt(c.nodeA, c.armA) - c.weightB0 * nodes.velocityAt(c.nodeB0, c.armB) -
@@ -50,6 +55,10 @@ Vec2 ContactSolver::relativeVelocity(const ContactPoint& c) const
 
 void ContactSolver::applyImpulse(const ContactPoint& c, const Vec2& impulse)
 {
+    if (c.lone) {
+        state_.nodes.velocity[c.nodeA] += state_.nodes.invMass[c.nodeA] * impulse;
+        return;
+    }
     if (c.plain) {
         Nodes& nodes = state_.nodes;
         nodes.velocity[c.nodeA] += nodes.invMass[c.nodeA] * impulse;
@@ -65,6 +74,7 @@ void ContactSolver::applyImpulse(const ContactPoint& c, const Vec2& impulse)
 double ContactSolver::effectiveMass(const ContactPoint& c, const Vec2& direction) const
 {
     const Nodes& nodes = state_.nodes;
+    if (c.lone) return nodes.invMass[c.nodeA] > 0 ? 1 / nodes.invMass[c.nodeA] : 0;
     const double leverA = cross(c.armA, direction), leverB = cross(c.armB, direction);
     const double inverse =
         nodes.invMass[c.nodeA] + nodes.invInertia[c.nodeA] * leverA * leverA +
@@ -80,10 +90,15 @@ std::uint8_t ContactSolver::refresh(ContactPoint& c)
 {
     const Nodes& nodes = state_.nodes;
     c.active = false;
-    const Vec2 at = c.plain ? nodes.position[c.nodeA] : state_.pointNow(c.point);
-    const Vec2 first = c.plain ? nodes.position[c.nodeB0] : state_.pointNow(state_.walls.first[c.wall]);
-    const Vec2 second = c.plain ? nodes.position[c.nodeB1] : state_.pointNow(state_.walls.second[c.wall]);
-    const Vec2 edge = second - first;
+    const Vec2 at = c.plain || c.lone ? nodes.position[c.nodeA] : state_.pointNow(c.point);
+    Vec2 first = c.first, edge = c.edge;
+    if (c.plain && !c.lone) {
+        first = nodes.position[c.nodeB0];
+        edge = nodes.position[c.nodeB1] - first;
+    } else if (!c.lone) {
+        first = state_.pointNow(state_.walls.first[c.wall]);
+        edge = state_.pointNow(state_.walls.second[c.wall]) - first;
+    }
     const double squared = edge.squaredNorm();
     if (!(squared > 1e-24)) return 0;
     const double length = std::sqrt(squared);
@@ -91,8 +106,9 @@ std::uint8_t ContactSolver::refresh(ContactPoint& c)
     c.separation = (at - first).dot(c.normal) - c.thickness;
     c.along = (at - first).dot(edge) / squared;
     // A thick border is round where two of its walls meet: there the corner itself is what is touched.
-    const double away = (at - first).norm();
-    c.round = c.thickness > 0 && c.along < 0 && c.separation > -c.thickness && away > 1e-12 && !c.inside;
+    const bool beyond = c.thickness > 0 && c.along < 0 && c.separation > -c.thickness && !c.inside;
+    const double away = beyond ? (at - first).norm() : 0;
+    c.round = away > 1e-12;
     if (c.round) c.normal = (at - first) / away, c.separation = away - c.thickness;
 
     c.armA = at - nodes.position[c.nodeA];
@@ -164,15 +180,18 @@ void ContactSolver::prepare()
         c.keptImpulse = c.normalImpulse;
         hit_ |= -c.approachSpeed * h_ > kHitSlops * c.slop;
         c.normalMass = effectiveMass(c, c.normal);
-        c.tangentMass = c.plain ? c.normalMass : effectiveMass(c, perpendicular(c.normal));
-        c.againstFixed = nodes.invMass[c.nodeA] == 0 || (nodes.invMass[c.nodeB0] == 0 && nodes.invMass[c.nodeB1] == 0);
+        c.tangentMass = c.plain || c.lone ? c.normalMass : effectiveMass(c, perpendicular(c.normal));
+        c.againstFixed =
+            c.lone || nodes.invMass[c.nodeA] == 0 || (nodes.invMass[c.nodeB0] == 0 && nodes.invMass[c.nodeB1] == 0);
     }
     each([&](ContactPoint& c) {
         applyImpulse(c, c.normalImpulse * c.normal + c.tangentImpulse * perpendicular(c.normal));
     });
 }
 
-void ContactSolver::solveOne(ContactPoint& c, Pass pass)
+/// Solves a contact with what it acts on: relative() is the velocity at the contact, act(impulse) changes it.
+template <class Relative, class Act>
+void ContactSolver::solveWith(ContactPoint& c, Pass pass, Relative&& relative, Act&& act) const
 {
     // Normal: the separation at the end of the substep shall not be negative.
     const Softness& soft = c.againstFixed ? fixed_ : moving_;
@@ -184,18 +203,33 @@ void ContactSolver::solveOne(ContactPoint& c, Pass pass)
         massScale = soft.massScale;
         impulseScale = soft.impulseScale;
     }
-    const double normalSpeed = relativeVelocity(c).dot(c.normal);
+    const double normalSpeed = relative().dot(c.normal);
     const double wanted = -c.normalMass * massScale * (normalSpeed + bias) - impulseScale * c.normalImpulse;
     const double normalImpulse = std::max(c.normalImpulse + wanted, 0.0);
-    applyImpulse(c, (normalImpulse - c.normalImpulse) * c.normal);
+    act((normalImpulse - c.normalImpulse) * c.normal);
     c.normalImpulse = normalImpulse;
 
     const Vec2 tangent = perpendicular(c.normal);
     const double most = c.friction * c.normalImpulse;
-    const double slide = relativeVelocity(c).dot(tangent);
+    const double slide = relative().dot(tangent);
     const double tangentImpulse = std::clamp(c.tangentImpulse - c.tangentMass * slide, -most, most);
-    applyImpulse(c, (tangentImpulse - c.tangentImpulse) * tangent);
+    act((tangentImpulse - c.tangentImpulse) * tangent);
     c.tangentImpulse = tangentImpulse;
+}
+
+void ContactSolver::solveOne(ContactPoint& c, Pass pass)
+{
+    if (c.lone) {
+        Vec2& velocity = state_.nodes.velocity[c.nodeA];
+        const double inverse = state_.nodes.invMass[c.nodeA];
+        Vec2 now = velocity;
+        solveWith(
+            c, pass, [&] { return now; }, [&](const Vec2& impulse) { now += inverse * impulse; });
+        velocity = now;
+        return;
+    }
+    solveWith(
+        c, pass, [&] { return relativeVelocity(c); }, [&](const Vec2& impulse) { applyImpulse(c, impulse); });
 }
 
 void ContactSolver::solve()

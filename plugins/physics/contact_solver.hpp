@@ -45,6 +45,8 @@ private:
     std::uint8_t idleFor(const ContactPoint&) const;
     bool decideActive(ContactPoint&, double wallLength, double slide) const;
     void solveOne(ContactPoint&, Pass);
+    template <class Relative, class Act>
+    void solveWith(ContactPoint&, Pass, Relative&&, Act&&) const;
     void restitute();
     template <class Act>
     void each(Act&& act)

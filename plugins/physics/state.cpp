@@ -1,7 +1,6 @@
 #include "state.hpp"
 
 #include "room.hpp"
-#include "soft/mass_sums.hpp"
 
 namespace jet::physics {
 
@@ -80,14 +79,19 @@ void readSoft(State& state, Index handle)
 {
     const BodyRecord& body = state.bodies[handle];
     if (body.nodes.count == 0) return;
-    const soft::MassSums sums = soft::massSums(state.nodes, body.nodes, body.soft->restArms.data());
+    const Index first = body.nodes.first;
+    const soft::CloudSums sums =
+        state.clouds->sums({state.nodes.position[first].data(), state.nodes.velocity[first].data(),
+                            &state.nodes.mass[first], body.soft->restArms[0].data(), body.nodes.count});
     double& angle = state.readings.angle[handle];
     // Of what was before only the whole turns count, so that a restored state reads the same bits.
     const double fit = angleOf(sums.across, sums.along);
     angle = fit + 2 * kPi * std::round((angle - fit) / (2 * kPi));
-    state.readings.position[handle] = sums.centre;
-    state.readings.velocity[handle] = sums.velocity;
+    state.readings.position[handle] = {sums.x, sums.y};
+    state.readings.velocity[handle] = {sums.vx, sums.vy};
     state.readings.omega[handle] = sums.omega();
+    Box& bounds = state.readings.bounds[handle];
+    state.clouds->bounds(state.nodes.position[first].data(), body.nodes.count, bounds.min.data(), bounds.max.data());
 }
 
 }  // namespace
@@ -95,11 +99,8 @@ void readSoft(State& state, Index handle)
 void updateReading(State& state, Index handle)
 {
     const BodyRecord& body = state.bodies[handle];
-    if (body.rigid) {
-        readRigid(state, handle);
-    } else {
-        readSoft(state, handle);
-    }
+    if (!body.rigid) return readSoft(state, handle);
+    readRigid(state, handle);
     Box& bounds = state.readings.bounds[handle];
     bounds = Box();
     for (Index p = body.points.first; p < body.points.end(); ++p) bounds.extend(state.points.position[p]);

@@ -7,6 +7,7 @@
 
 #include "column.hpp"
 #include "edge_grid.hpp"
+#include "soft/cloud_kernels.hpp"
 #include "trigonometry.hpp"
 
 #include <jet/physics.hpp>
@@ -142,6 +143,7 @@ struct State {
     std::vector<BodyRecord> bodies;
     BodyReadings readings;
     mutable Scratch scratch;  // holds nothing between calls
+    const soft::CloudKernels* clouds = &soft::sse2::clouds;
 
     Vec2 pointNow(Index point) const
     {

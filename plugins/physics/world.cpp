@@ -17,6 +17,7 @@ World::World(const WorldSettings& settings) : settings_(settings)
     springs_.use(avx2 ? soft::kernelsAvx2() : soft::kernelsSse2());
     const soft::CloudKernels& clouds = avx2 ? soft::avx2::clouds : soft::sse2::clouds;
     shapes_.use(clouds), finder_.use(clouds);
+    state_.clouds = &clouds;
     softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
     queries_.use(rigid_);
 }

@@ -39,6 +39,7 @@ void World::setMass(BodyHandle handle, double mass)
         const double ratio = mass / before;
         body.soft->mass = mass;
         for (Index n = body.nodes.first; n < body.nodes.end(); ++n) nodes.mass[n] *= ratio, nodes.invMass[n] /= ratio;
+        reread(handle);  // as after restoring it
     }
     rate_ = -1;
     rigid_.disturb(handle);

@@ -100,6 +100,7 @@ void World::setPinned(BodyHandle handle, std::uint32_t particle, bool pinned)
     }
     nodes.invMass[node] = pinned ? 0 : 1 / nodes.mass[node];
     if (pinned) nodes.velocity[node] = Vec2(0, 0);
+    reread(handle);
     rate_ = -1;
 }
 

@@ -84,11 +84,11 @@ void World::stepPart(double dt)
             softContacts_.clear();
         } else if (i == 0 || finder_.strayed(state_, now - soughtAt)) {
             if (i == 0) {
-                finder_.find(state_, settings_, dt, contacts_.points, stats_);
+                finder_.find(state_, settings_, dt, true, contacts_.points, stats_);
                 for (ContactPoint& c : contacts_.points) c.stepImpulse = 0;
             } else {
                 softContacts_.travel(state_, finder_.positions());
-                finder_.find(state_, settings_, dt - now, contacts_.points, stats_);
+                finder_.find(state_, settings_, dt - now, false, contacts_.points, stats_);
                 finder_.collectEnded(contacts_.points, ended_);
             }
             contacts_.begin(state_);

@@ -57,6 +57,8 @@ struct CloudReturn {
 
 struct CloudKernels {
     CloudSums (*sums)(const Cloud&);
+    /// The least and the greatest x and y of at least one particle.
+    void (*bounds)(const double* position, std::size_t count, double* least, double* greatest);
     CloudStray (*stray)(const Cloud&, const CloudMotion&);
     /// Fills change [count][2] with what draws each particle to its goal, unless there is nothing.
     CloudPulled (*pull)(const Cloud&, const CloudMotion&, const CloudPull&, double* change);

@@ -12,6 +12,7 @@ JET_INLINE Two all(double value) { return Two{} + value; }
 JET_INLINE Two swapped(const Two& v) { return __builtin_shufflevector(v, v, 1, 0, 3, 2); }
 JET_INLINE Two turned(const Two& v) { return swapped(v) * both(-1, 1); }  // by a right angle
 JET_INLINE Two most(const Two& a, const Two& b) { return a > b ? a : b; }
+JET_INLINE Two least(const Two& a, const Two& b) { return a < b ? a : b; }
 /// x² + y² of each particle, twice.
 JET_INLINE Two squares(const Two& v)
 {
@@ -101,6 +102,19 @@ CloudSums sums(const Cloud& cloud)
     return sums;
 }
 
+void bounds(const double* position, std::size_t count, double* lowest, double* greatest)
+{
+    Two low = both(position[0], position[1]), high = low;
+    eachTwo(count, [&](std::size_t n, bool two) JET_ALWAYS {
+        const Two at = vectors(position, n, two);
+        low = least(low, at), high = most(high, at);
+    });
+    for (int axis = 0; axis < 2; ++axis) {
+        lowest[axis] = low[axis] < low[axis + 2] ? low[axis] : low[axis + 2];
+        greatest[axis] = high[axis] > high[axis + 2] ? high[axis] : high[axis + 2];
+    }
+}
+
 /// What of the velocities is not the motion's.
 JET_INLINE Two ownVelocity(const Two& velocity, const Two& arm, const CloudMotion& motion)
 {
@@ -176,4 +190,4 @@ double farthest(const double* position, const double* from, const double* moving
 
 }  // namespace
 
-const CloudKernels clouds{&sums, &stray, &pull, &give, &farthest};
+const CloudKernels clouds{&sums, &bounds, &stray, &pull, &give, &farthest};

@@ -67,6 +67,63 @@ TEST(SoftContacts, ARestoredPileHasTheSameFuture)
     EXPECT_EQ(other->hash(), expected);
 }
 
+TEST(SoftContacts, APileSavedAfterLiveChangesHasTheSameFuture)
+{
+    auto world = pileOfBalls(Simd::Automatic, 1), other = pileOfBalls(Simd::Automatic, 1);
+    run(*world, 1);
+    // What steps begin with is read again, as if the world had been restored.
+    world->setMass(4, 3 * 0.7);
+    world->setPinned(8, 3, true);
+    world->applyImpulse(2, {5, -3});
+    other->restore(world->save());
+    for (int i = 0; i < 60; ++i) {
+        world->step(kStep), other->step(kStep);
+        ASSERT_EQ(world->hash(), other->hash()) << "step " << i;
+    }
+}
+
+TEST(SoftContacts, AFixedWallBearsTheWeightOfWhatRestsOnIt)
+{
+    for (const double thickness : {0.0, 2.0}) {
+        auto world = makeWorld({0, 98});
+        SoftBodyDef ball = defaultBall({0, -25}, 20, 40);
+        ball.matter.thickness = thickness;
+        world->addSoftBody(ball);
+        world->addRigidBody(ground(0));
+        run(*world, 6);
+        double mass = 0, up = 0;
+        for (const double m : ball.masses) mass += m;
+        constexpr int kSteps = 240;  // it still sways a little
+        for (int i = 0; i < kSteps; ++i) {
+            world->step(kStep);
+            for (const Contact& c : world->contacts()) {
+                up -= c.impulse * c.normal.y();
+                EXPECT_EQ(c.bodyA, 0U);
+                EXPECT_EQ(c.bodyB, 1U);
+                EXPECT_LT(c.penetration, 0.2);
+            }
+        }
+        const double weight = mass * 98 * kSteps * kStep;
+        EXPECT_NEAR(up, weight, 0.02 * weight) << thickness;
+    }
+}
+
+TEST(SoftContacts, AFixedWallIsFeltWhereItWasPut)
+{
+    auto world = makeWorld({0, 98});
+    world->addSoftBody(defaultBall({0, -25}, 20, 40));
+    world->addRigidBody(ground(0));
+    run(*world, 3);
+    const Vec2 centre = world->bodies().position[1];
+    const double height = world->bodies().position[0].y();
+    for (const double shift : {0.5, 3.0, 40.0}) {
+        world->setPosition(1, centre + Vec2(0, shift));
+        run(*world, 4);
+        EXPECT_NEAR(world->bodies().position[0].y(), height + shift, 2) << shift;
+        EXPECT_TRUE(world->touching(0, 1));
+    }
+}
+
 TEST(SoftContacts, APileComesToRestWithoutOverlapOrInversion)
 {
     for (const double thickness : {0.0, 2.0}) {
