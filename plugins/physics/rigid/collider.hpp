@@ -70,6 +70,12 @@ public:
     const float* drifts() const { return drift_.data(); }
     /// Are there contacts that are due for another reason?
     bool anyDisturbed() const { return disturbed_; }
+    /// What sift() is going to read of a contact.
+    void prefetch(Index contact) const
+    {
+        __builtin_prefetch(&contacts_[contact], 1);
+        __builtin_prefetch(&poses_[nearing_[contact].bodyA]), __builtin_prefetch(&poses_[nearing_[contact].bodyB]);
+    }
     /// All that was due has been looked at.
     void settled() { disturbed_ = false; }
     /// What was seen of a pair.
@@ -208,7 +214,7 @@ private:
     std::vector<Place> places_;       // [contacts]
     std::vector<Nearing> nearing_;    // [contacts]
     std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step?
-    std::vector<float> moved_;        // [bodies] units in this step, at least; scratch of stopTunnelling()
+    std::vector<Vec2f> moved_;        // [bodies] units in this step; scratch of stopTunnelling()
     std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
     std::vector<double> reached_;     // [bodies] units they may have come at the end of this step
     std::vector<Index> free_;         // gaps in the contacts

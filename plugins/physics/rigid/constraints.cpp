@@ -174,6 +174,8 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, std::size_t first,
     std::size_t left = 0;
     for (std::size_t at = 0; at < due; at += Sieve::kPairs) {
         const std::size_t count = std::min<std::size_t>(Sieve::kPairs, due - at);
+        for (std::size_t i = at + Sieve::kPairs; i < std::min(at + 2 * Sieve::kPairs, due); ++i)
+            collider.prefetch(block.due[i]);
         std::uint32_t near = ~collider.sift(&block.due[at], count, dt) & ((1U << count) - 1);
         for (; near != 0; near &= near - 1)
             block.due[left++] = block.due[at + static_cast<std::size_t>(__builtin_ctz(near))];

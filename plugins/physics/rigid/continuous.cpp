@@ -167,8 +167,10 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
     if (contacts_.empty()) return;
     bool any = false;
     moved_.resize(bodies_.size());
+    float farthest = 0;
     for (Index i = 1; i < bodies_.size(); ++i) {
-        moved_[i] = 1.001F * static_cast<float>(moves[i].norm());
+        moved_[i] = {static_cast<float>(moves[i].x()), static_cast<float>(moves[i].y())};
+        farthest = std::max({farthest, std::abs(moved_[i].x), std::abs(moved_[i].y)});
         if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
         any |= allowed[i] < 1;
     }
@@ -180,7 +182,9 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
     }
     for (Index i = 0; i < contacts_.size(); ++i) {
         const Nearing& n = nearing_[i];
-        if (moved_[n.bodyA] + moved_[n.bodyB] <= n.thin) continue;
+        const Vec2f rough = moved_[n.bodyB] - moved_[n.bodyA];
+        const float most = 0.9999F * n.thin - 1e-6F * farthest;  // the digits that single precision drops
+        if (most > 0 && dot(rough, rough) <= most * most) continue;
         const Vec2 relativeMove = moves[n.bodyB] - moves[n.bodyA];
         if (!(relativeMove.squaredNorm() > static_cast<double>(n.thin) * static_cast<double>(n.thin))) continue;
         const RigidContact& c = contacts_[i];
