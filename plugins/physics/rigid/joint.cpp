@@ -292,6 +292,14 @@ bool TurningRows<Real>::make(const JointFrame& f, const BodyState<Real>* states,
     return made.size() == count_;
 }
 
+/// Does its direction turn by more than a radian?
+template <class Real>
+bool turnsFar(const JointRow<Real>& from, const JointRow<Real>& to)
+{
+    const Real along = from.ax * to.ax + from.ay * to.ay + from.bx * to.bx + from.by * to.by;
+    return along < (from.ax * from.ax + from.ay * from.ay + from.bx * from.bx + from.by * from.by) / 2;
+}
+
 template <class Real>
 void TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* pushes, double h,
                              std::vector<JointRow<Real>>& rows, std::vector<JointRow<Real>>& made) const
@@ -305,9 +313,9 @@ void TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* push
     };
     for (std::size_t i = 0; i < count_; ++i) {
         JointRow<Real>&old = rows[first_ + i], &row = made[i];
-        const Real p = row.impulse = old.impulse;
-        follow(a_, (row.ax - old.ax) * p, (row.ay - old.ay) * p, (row.angularA - old.angularA) * p);
-        follow(b_, (row.bx - old.bx) * p, (row.by - old.by) * p, (row.angularB - old.angularB) * p);
+        const Real was = old.impulse, p = row.impulse = turnsFar(old, row) ? 0 : was;
+        follow(a_, row.ax * p - old.ax * was, row.ay * p - old.ay * was, row.angularA * p - old.angularA * was);
+        follow(b_, row.bx * p - old.bx * was, row.by * p - old.by * was, row.angularB * p - old.angularB * was);
         row.error -= row.moved(states);
         old = row;
     }
@@ -324,6 +332,8 @@ void TurningRows<Real>::foresee(const BodyState<Real>* states, double h, std::ve
     for (std::size_t i = 0; i < count_; ++i) {
         JointRow<Real>& row = rows[first_ + i];
         if (row.soft || row.velocityOnly) continue;
+        // Nor one of which the direction turns that far, as beside the wheel of a pulley.
+        if (turnsFar(row, made[i])) continue;
         const Real straight = row.error + row.moved(states) + static_cast<Real>(ahead) * row.moving(states);
         row.bend = (made[i].error - straight) / static_cast<Real>(h);
     }

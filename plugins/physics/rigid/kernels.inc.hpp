@@ -35,6 +35,12 @@ JET_INLINE Values most(const Values& a, const Values& b)
     return a > b ? a : b;
 }
 
+template <class Real>
+JET_INLINE Lanes<Real> magnitude(const Lanes<Real>& value)
+{
+    return most(value, Lanes<Real>(-value));
+}
+
 /// The states of a group's bodies, one value of each lane together.
 template <class Real>
 struct BodyLanes {
@@ -447,12 +453,36 @@ void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::si
 }
 
 template <class Real>
+void foreseeJoints(const BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count,
+                   const StepConstants<Real>& step)
+{
+    // A body that turns by more than a radian a substep is not foreseen farther than that.
+    const Lanes<Real> zero = all<Real>(0), half = all(step.h / 2), most = all(step.inverseH / 2);
+    constexpr Real kHeld = Real(0.1);
+    for (std::size_t g = 0; g < count; ++g) {
+        JointLanes<Real>& j = groups[g];
+        const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
+        const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
+        const Lanes<Real> omegaA = moveA.perGyration * a.spin, omegaB = moveB.perGyration * b.spin;
+        const Lanes<Real> inwardA = least(half * omegaA * omegaA, most);
+        const Lanes<Real> inwardB = least(half * omegaB * omegaB, most);
+        const Lanes<Real> aroundAX = -omegaA * j.armAY, aroundAY = omegaA * j.armAX;
+        const Lanes<Real> aroundBX = -omegaB * j.armBY, aroundBY = omegaB * j.armBX;
+        const Lanes<Real> apartX = b.velocityX + aroundBX - a.velocityX - aroundAX;
+        const Lanes<Real> apartY = b.velocityY + aroundBY - a.velocityY - aroundAY;
+        const Lanes<Real> turning =
+            aroundAX * aroundAX + aroundAY * aroundAY + aroundBX * aroundBX + aroundBY * aroundBY;
+        const Mask<Real> held = apartX * apartX + apartY * apartY <= kHeld * kHeld * turning;
+        j.bendX = choose<Real>(held, inwardA * j.armAX - inwardB * j.armBX, zero);
+        j.bendY = choose<Real>(held, inwardA * j.armAY - inwardB * j.armBY, zero);
+    }
+}
+
+template <class Real>
 void solveJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const StepConstants<Real>& step,
                  bool pushes)
 {
-    const Lanes<Real> rate = all(pushes ? step.joint.biasRate : Real(0));
-    // A body that turns by more than a radian a substep is not foreseen farther than that.
-    const Lanes<Real> half = all(pushes ? step.h / 2 : Real(0)), mostInward = all(step.inverseH / 2);
+    const Lanes<Real> rate = all(pushes ? step.joint.biasRate : Real(0)), bends = all(Real(pushes ? 1 : 0));
     const Lanes<Real> massScale = all(pushes ? step.joint.massScale : Real(1));
     const Lanes<Real> impulseScale = all(pushes ? step.joint.impulseScale : Real(0));
     for (std::size_t g = 0; g < count; ++g) {
@@ -460,11 +490,7 @@ void solveJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t 
         BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
         const Arms<Real> arms(j, moveA, moveB);
-        const Lanes<Real> omegaA = moveA.perGyration * a.spin, omegaB = moveB.perGyration * b.spin;
-        const Lanes<Real> inwardA = least(half * omegaA * omegaA, mostInward);
-        const Lanes<Real> inwardB = least(half * omegaB * omegaB, mostInward);
-        const Lanes<Real> biasX = rate * j.errorX + inwardA * j.armAX - inwardB * j.armBX;
-        const Lanes<Real> biasY = rate * j.errorY + inwardA * j.armAY - inwardB * j.armBY;
+        const Lanes<Real> biasX = rate * j.errorX + bends * j.bendX, biasY = rate * j.errorY + bends * j.bendY;
         const Lanes<Real> speedX = b.velocityX - a.velocityX - b.spin * arms.by + a.spin * arms.ay + biasX;
         const Lanes<Real> speedY = b.velocityY - a.velocityY + b.spin * arms.bx - a.spin * arms.ax + biasY;
         const Lanes<Real> x = -massScale * (j.inverseXX * speedX + j.inverseXY * speedY) - impulseScale * j.impulseX;
@@ -505,18 +531,33 @@ JET_INLINE void directionOf(const Lanes<Real>& angle, Lanes<Real>& cosine, Lanes
 }
 
 template <class Real>
-void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLanes<Real>* groups, std::size_t count)
+void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLanes<Real>* groups, std::size_t count,
+                const StepConstants<Real>& step)
 {
-    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
+    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1), half = all(Real(0.5));
+    constexpr Real kFar = Real(0.05), kWhirl = Real(0.25);
     for (std::size_t g = 0; g < count; ++g) {
         JointLanes<Real>& j = groups[g];
         const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
         Lanes<Real> c, s;
         directionOf<Real>(moveA.sweep * moveA.perGyration, c, s);
-        const Lanes<Real> ax = c * j.startAX - s * j.startAY, ay = s * j.startAX + c * j.startAY;
+        Lanes<Real> ax = c * j.startAX - s * j.startAY, ay = s * j.startAX + c * j.startAY;
         directionOf<Real>(moveB.sweep * moveB.perGyration, c, s);
-        const Lanes<Real> bx = c * j.startBX - s * j.startBY, by = s * j.startBX + c * j.startBY;
+        Lanes<Real> bx = c * j.startBX - s * j.startBY, by = s * j.startBX + c * j.startBY;
+        j.errorX = j.startErrorX + (moveB.moveX - moveA.moveX) + (bx - j.startBX) - (ax - j.startAX);
+        j.errorY = j.startErrorY + (moveB.moveY - moveA.moveY) + (by - j.startBY) - (ay - j.startAY);
+        // Impulses act in one place, half way between the points, so that they do not turn the whole; far ones do.
+        const Lanes<Real> far =
+            kFar * (magnitude<Real>(ax) + magnitude<Real>(ay) + magnitude<Real>(bx) + magnitude<Real>(by));
+        const Lanes<Real> halfX = most(least(half * j.errorX, far), -far),
+                          halfY = most(least(half * j.errorY, far), -far);
+        // Arms that whirl, as of light bodies that cannot hold heavy ones, stay as they were: that takes speed away.
+        const Lanes<Real> mostOmega = all(kWhirl * step.inverseH);
+        const Mask<Real> calm = (magnitude<Real>(a.spin * moveA.perGyration) < mostOmega) &
+                                (magnitude<Real>(b.spin * moveB.perGyration) < mostOmega);
+        ax = choose<Real>(calm, ax + halfX, j.armAX), ay = choose<Real>(calm, ay + halfY, j.armAY);
+        bx = choose<Real>(calm, bx - halfX, j.armBX), by = choose<Real>(calm, by - halfY, j.armBY);
         const Lanes<Real> perA = a.invMass * moveA.perGyration, perB = b.invMass * moveB.perGyration;
         const Lanes<Real> warmA = perA * ((j.armAX - ax) * j.impulseY - (j.armAY - ay) * j.impulseX);
         const Lanes<Real> warmB = perB * ((bx - j.armBX) * j.impulseY - (by - j.armBY) * j.impulseX);
@@ -525,8 +566,6 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
             if (perB[i] != 0) pushes[j.b[i]].warmW += warmB[i];
         }
         j.armAX = ax, j.armAY = ay, j.armBX = bx, j.armBY = by;
-        j.errorX = j.startErrorX + (moveB.moveX - moveA.moveX) + (bx - j.startBX) - (ax - j.startAX);
-        j.errorY = j.startErrorY + (moveB.moveY - moveA.moveY) + (by - j.startBY) - (ay - j.startAY);
         const Lanes<Real> mass = a.invMass + b.invMass;
         const Lanes<Real> inertiaA = perA * moveA.perGyration, inertiaB = perB * moveB.perGyration;  // inverse
         const Lanes<Real> xx = mass + inertiaA * ay * ay + inertiaB * by * by;
@@ -565,10 +604,10 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {calmContacts<Real>,      warmContacts<Real>,     warmJoints<Real>,    solveContacts<Real>,
-            relaxContacts<Real>,     approachContacts<Real>, scaleContacts<Real>, carryContacts<Real>,
-            bounceContacts<Real>,    solveJoints<Real>,      turnJoints<Real>,    integrateVelocities<Real>,
-            integratePositions<Real>};
+    return {calmContacts<Real>,        warmContacts<Real>,      warmJoints<Real>,    solveContacts<Real>,
+            relaxContacts<Real>,       approachContacts<Real>,  scaleContacts<Real>, carryContacts<Real>,
+            bounceContacts<Real>,      foreseeJoints<Real>,     solveJoints<Real>,   turnJoints<Real>,
+            integrateVelocities<Real>, integratePositions<Real>};
 }
 
 }  // namespace

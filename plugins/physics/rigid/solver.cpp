@@ -74,10 +74,12 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     colour.index[at] = index;
     JointLanes<Real>& g = colour.joints[at / lanes];
     g.a[lane] = static_cast<std::int32_t>(slotA), g.b[lane] = static_cast<std::int32_t>(slotB);
-    const Real ax = static_cast<Real>(f.armA.x()), ay = static_cast<Real>(f.armA.y());
-    const Real bx = static_cast<Real>(f.armB.x()), by = static_cast<Real>(f.armB.y());
-    g.armAX[lane] = g.startAX[lane] = ax, g.armAY[lane] = g.startAY[lane] = ay;
-    g.armBX[lane] = g.startBX[lane] = bx, g.armBY[lane] = g.startBY[lane] = by;
+    const Vec2 half = 0.5 * (f.pointB - f.pointA);
+    const Real ax = static_cast<Real>(f.armA.x() + half.x()), ay = static_cast<Real>(f.armA.y() + half.y());
+    const Real bx = static_cast<Real>(f.armB.x() - half.x()), by = static_cast<Real>(f.armB.y() - half.y());
+    g.armAX[lane] = ax, g.armAY[lane] = ay, g.armBX[lane] = bx, g.armBY[lane] = by;
+    g.startAX[lane] = static_cast<Real>(f.armA.x()), g.startAY[lane] = static_cast<Real>(f.armA.y());
+    g.startBX[lane] = static_cast<Real>(f.armB.x()), g.startBY[lane] = static_cast<Real>(f.armB.y());
     g.errorX[lane] = g.startErrorX[lane] = static_cast<Real>(f.pointB.x() - f.pointA.x());
     g.errorY[lane] = g.startErrorY[lane] = static_cast<Real>(f.pointB.y() - f.pointA.y());
     const Real inertiaA = a.invMass * a.perGyration * a.perGyration;  // inverse
@@ -147,6 +149,7 @@ void Solver<Real>::prepare(int passes)
     const auto ratio = static_cast<Real>(lastH_ > 0 ? shape_.h / lastH_ : 1);
     lastH_ = shape_.h;
     countUsed();
+    eachNode([&](Node node) { foreseeNode(node); });
     if (ratio == 1 && !bounces_) return;
     eachNode([&](Node node) {
         eachColour(node, [&](Colour& c) {
@@ -179,17 +182,28 @@ void Solver<Real>::turnNode(Node node)
         each.turn(states_.data(), pushes_.data(), shape_.h, rows_[node], made_[node]);
     for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
         JointColour& c = jointColours_[firstColourOf(node) + i];
-        kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size());
+        kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size(), constants_);
     }
 }
 
-/// All that holds the node's bodies together, once; `first` in this half of the substep.
+/// Where the joints turn in the next substep, from velocities that they allow: what warm starting and forces make of
+/// them is not in balance yet, and may whirl a light body between heavy ones.
 template <class Real>
-void Solver<Real>::pushNode(Node node, bool first)
+void Solver<Real>::foreseeNode(Node node)
+{
+    for (const TurningRows<Real>& each : turning_[node])
+        each.foresee(states_.data(), shape_.h, rows_[node], made_[node]);
+    for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
+        JointColour& c = jointColours_[firstColourOf(node) + i];
+        kernels_->foreseeJoints(states_.data(), c.joints.data(), c.joints.size(), constants_);
+    }
+}
+
+/// All that holds the node's bodies together, once.
+template <class Real>
+void Solver<Real>::pushNode(Node node)
 {
     BodyState<Real>* states = states_.data();
-    if (first)
-        for (const TurningRows<Real>& each : turning_[node]) each.foresee(states, shape_.h, rows_[node], made_[node]);
     for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, true);
     for (int again = 0; again < kJointPushPasses; ++again) {
         for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
@@ -221,6 +235,7 @@ void Solver<Real>::relaxNode(Node node, int pass, bool last)
             kernels_->relaxContacts(states, c.contacts.data(), c.frictions.data(), c.contacts.size(), constants);
         }
     });
+    if (last) foreseeNode(node);
 }
 
 template <class Real>
@@ -235,7 +250,7 @@ void Solver<Real>::solveAll(bool push, Bodies&& bodies)
             },
             [&](Node node) {
                 if (push) {
-                    pushNode(node, i == 0);
+                    pushNode(node);
                 } else {
                     relaxNode(node, i, i + 1 == passes);
                 }

@@ -238,7 +238,8 @@ private:
     void noteFlip(Collider&, const Flip&);
     void warmNode(Node);
     void turnNode(Node);
-    void pushNode(Node, bool first);
+    void foreseeNode(Node);
+    void pushNode(Node);
     void relaxNode(Node, int pass, bool last);
     template <class Bodies>
     void solveAll(bool push, Bodies&& bodies);

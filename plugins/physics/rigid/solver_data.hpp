@@ -85,6 +85,7 @@ struct alignas(32) JointLanes {
     Lanes<Real> errorX, errorY;
     Lanes<Real> inverseXX, inverseXY, inverseYY;
     Lanes<Real> impulseX, impulseY;
+    Lanes<Real> bendX, bendY;  // units / s that the arms' turning on adds in a substep
     // Read by turnJoints() only: at the start of the step.
     Lanes<Real> startAX, startAY, startBX, startBY, startErrorX, startErrorY;
 };
@@ -123,9 +124,12 @@ struct Kernels {
     void (*carryContacts)(ContactLanes<Real>*, const FrictionLanes<Real>*, std::uint32_t* bits, std::size_t);
     void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, const BounceLanes<Real>*,
                            std::size_t, const StepConstants<Real>&);
+    /// Looks where the arms turn in a substep.
+    void (*foreseeJoints)(const BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&);
     void (*solveJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&, bool push);
     /// Turns the arms to where the bodies are now; what the accumulated impulses warm follows.
-    void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t);
+    void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t,
+                       const StepConstants<Real>&);
     /// Takes up the impulses of the last substep, then forces, damping and warm starting.
     void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, Real h);
     void (*integratePositions)(BodyState<Real>*, std::size_t, Real h);

@@ -3,6 +3,9 @@
 
 #include <jet/result.hpp>
 
+#include <array>
+#include <random>
+
 namespace jet::physics::test {
 
 namespace {
@@ -162,6 +165,98 @@ TEST(SwingingJoints, APulleyPassesEnergyOn)
         ASSERT_NEAR(energyOf(*world, ends, 8, g), start, 3) << "step " << i;
     }
     EXPECT_LT(world->bodies().position[ends[1]].y(), 70);
+}
+
+TEST(SwingingJoints, AnUnevenPairKeepsItsAngularMomentum)
+{
+    // A light body welded to a heavy one at the end of a long arm, turning freely for ten seconds.
+    const double heavy = 48, light = 1, reach = 60, omega = 9, inertia = (400.0 + 100) / 12;
+    auto world = makeWorld({0, 0});
+    const Vec2 centre(reach * light / (heavy + light), 0);
+    const auto add = [&](const Vec2& at, double mass) {
+        RigidBodyDef def = simple(box(at, 20, 10, mass));
+        def.common.velocity = {0, omega * (at.x() - centre.x())};
+        def.common.omega = omega;
+        return world->addRigidBody(def);
+    };
+    const BodyHandle a = add({0, 0}, heavy), b = add({reach, 0}, light);
+    world->addJoint(between(JointDef::Kind::Weld, a, {reach, 0}, b, {reach, 0}));
+    const auto momentum = [&] {
+        double sum = 0;
+        for (const auto& [body, mass] : {std::pair(a, heavy), std::pair(b, light)}) {
+            const Vec2 at = world->bodies().position[body], velocity = world->bodies().velocity[body];
+            sum += mass * (at.x() * velocity.y() - at.y() * velocity.x() + inertia * world->bodies().omega[body]);
+        }
+        return sum;
+    };
+    const double start = momentum();
+    run(*world, 10);
+    EXPECT_NEAR(momentum(), start, 1e-6 * start);
+    EXPECT_NEAR(world->bodies().omega[b], omega, 0.002 * omega);
+}
+
+struct Member {
+    BodyHandle body = kNoHandle;
+    double mass = 0, inertia = 0;
+};
+
+/// Bodies of mass 1 to 10 anywhere, held together by joints of every kind, at random; no gravity.
+std::vector<Member> addMechanism(PhysicsWorld& world, std::mt19937& random)
+{
+    const auto number = [&](double from, double to) { return from + (to - from) * (random() / 4294967296.0); };
+    std::vector<Member> members;
+    std::vector<Vec2> places;
+    const unsigned count = 2 + random() % 8;
+    for (unsigned i = 0; i < count; ++i) {
+        const Vec2 at(number(-50, 50), number(-50, 50));
+        const double width = number(2, 30), height = number(2, 30);
+        RigidBodyDef def = simple(box(at, width, height, std::pow(10, number(0, 1))));
+        def.common.velocity = {number(-50, 50), number(-50, 50)};
+        def.common.omega = number(-5, 5);
+        const double inertia = def.mass * (width * width + height * height) / 12;
+        members.push_back({world.addRigidBody(def), def.mass, inertia}), places.push_back(at);
+    }
+    using Kind = JointDef::Kind;
+    for (unsigned joints = 1 + random() % count; joints > 0; --joints) {
+        const Kind kind = std::array{Kind::Revolute, Kind::Prismatic, Kind::Weld,  Kind::Distance,
+                                     Kind::Rope,     Kind::Wheel,     Kind::Pulley}[random() % 7];
+        const unsigned a = random() % count, b = (a + 1 + random() % (count - 1)) % count;
+        const bool apart = kind == Kind::Distance || kind == Kind::Rope || kind == Kind::Pulley;
+        const Vec2 middle = 0.5 * (places[a] + places[b]) + Vec2(number(-10, 10), number(-10, 10));
+        const BodyHandle first = kind != Kind::Pulley && random() % 4 == 0 ? kNoHandle : members[a].body;
+        JointDef def = between(kind, first, apart ? places[a] : middle, members[b].body, apart ? places[b] : middle);
+        def.groundA = {number(-80, 80), -100}, def.groundB = {number(-80, 80), -100};
+        def.axis = {1, number(-1, 1)};
+        if (random() % 3 == 0) def.limited = true, def.lower = -number(0, 3), def.upper = number(0, 3);
+        world.addJoint(def);
+    }
+    return members;
+}
+
+TEST(SwingingJoints, MechanismsGatherNoEnergy)
+{
+    for (unsigned seed = 0; seed < 80; ++seed) {
+        std::mt19937 random(seed);
+        WorldSettings settings;
+        settings.gravity = {0, 0};
+        settings.precision = seed % 2 == 0 ? Precision::Double : Precision::Single;
+        settings.findCollisions = false;
+        settings.allowSleep = false;
+        auto world = JetPhysics().createWorld(settings);
+        const std::vector<Member> members = addMechanism(*world, random);
+        const auto energy = [&] {
+            double sum = 0;
+            for (const auto& [body, mass, inertia] : members)
+                sum += 0.5 * mass * world->bodies().velocity[body].squaredNorm() +
+                       0.5 * inertia * std::pow(world->bodies().omega[body], 2);
+            return sum;
+        };
+        const double start = energy();
+        for (int i = 0; i < 240; ++i) {
+            world->step(kStep);
+            ASSERT_LE(energy(), 1.02 * start) << "mechanism " << seed << ", step " << i;
+        }
+    }
 }
 
 TEST(Joints, AMotorReachesItsSpeedAndItsTorqueIsLimited)
