@@ -109,10 +109,10 @@ void Actuators::setSpring(ActuatorHandle handle, double restLength, double ks, d
     spring.tearLength = tearRatio > 0 ? spring.restLength * tearRatio : 0;
 }
 
+/// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
 void Actuators::addTo(StiffnessBounds& bounds, const State& state) const
 {
     for (const Spring& spring : springs_) {
-        if (!spring.alive) continue;
         spring.a.addTo(bounds, state, spring.ks);
         spring.b.addTo(bounds, state, spring.ks);
     }

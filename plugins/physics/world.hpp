@@ -194,6 +194,7 @@ private:
     double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added
     bool plain_ = false;      // as the thesis has it: Method::SemiImplicitEuler
     double preparedFor_ = 0;  // substep the springs are prepared for, seconds
+    double impulsesOf_ = 0;   // substep the impulses of contacts and joints are of, seconds
 };
 
 }  // namespace jet::physics

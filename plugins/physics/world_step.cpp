@@ -67,12 +67,15 @@ void World::stepPart(double dt)
         plain_ = plain;
         springs_.prepare(state_, bounds_, h, plain);
         actuators_.prepare(bounds_, h, plain);
+        preparedFor_ = h;
+    }
+    if (h != impulsesOf_) {
         // Warm-start impulses are per substep: scaled, they stand for the same force.
-        const double ratio = preparedFor_ > 0 ? h / preparedFor_ : 1;
+        const double ratio = impulsesOf_ > 0 ? h / impulsesOf_ : 1;
         for (ContactPoint& c : contacts_.points) c.normalImpulse *= ratio, c.tangentImpulse *= ratio;
         softContacts_.scale(ratio);
         softJoints_.scale(ratio);
-        preparedFor_ = h;
+        impulsesOf_ = h;
     }
 
     double soughtAt = 0;

@@ -26,6 +26,8 @@ public:
     /// Two bodies that shall not collide, because a joint holds them.
     void exclude(Index a, Index b) { excluded_.insert(bodyKey(a, b)); }
     void include(Index a, Index b) { excluded_.erase(bodyKey(a, b)); }
+    void includeAll() { excluded_.clear(); }
+    bool excludes(Index a, Index b) const { return excluded_.contains(bodyKey(a, b)); }
     /// Something about the body has changed: all its contacts are looked at again.
     void disturb(Index body);
     /// Its pairs are sought afresh, those that were known and have been forgotten too.

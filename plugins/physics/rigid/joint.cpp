@@ -292,12 +292,15 @@ bool TurningRows<Real>::make(const JointFrame& f, const BodyState<Real>* states,
     return made.size() == count_;
 }
 
-/// Does its direction turn by more than a radian?
+/// Does its direction turn by more than half a radian, as of a short rope, or beside the wheel of a pulley? Then what is
+/// foreseen, or was given, is of another way.
 template <class Real>
-bool turnsFar(const JointRow<Real>& from, const JointRow<Real>& to)
+bool turnsFar(const JointRow<Real>& now, const JointRow<Real>& then)
 {
-    const Real along = from.ax * to.ax + from.ay * to.ay + from.bx * to.bx + from.by * to.by;
-    return along < (from.ax * from.ax + from.ay * from.ay + from.bx * from.bx + from.by * from.by) / 2;
+    const auto apart = [](Real x, Real y, Real u, Real v) {
+        return x * u + y * v < static_cast<Real>(0.88) * std::sqrt((x * x + y * y) * (u * u + v * v));
+    };
+    return apart(now.ax, now.ay, then.ax, then.ay) || apart(now.bx, now.by, then.bx, then.by);
 }
 
 template <class Real>
@@ -331,9 +334,7 @@ void TurningRows<Real>::foresee(const BodyState<Real>* states, double h, std::ve
     if (!make(frameIn(states, ahead), states, h, made)) return;
     for (std::size_t i = 0; i < count_; ++i) {
         JointRow<Real>& row = rows[first_ + i];
-        if (row.soft || row.velocityOnly) continue;
-        // Nor one of which the direction turns that far, as beside the wheel of a pulley.
-        if (turnsFar(row, made[i])) continue;
+        if (row.soft || row.velocityOnly || turnsFar(row, made[i])) continue;
         const Real straight = row.error + row.moved(states) + static_cast<Real>(ahead) * row.moving(states);
         row.bend = (made[i].error - straight) / static_cast<Real>(h);
     }

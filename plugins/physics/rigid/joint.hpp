@@ -60,6 +60,8 @@ struct Joint {
     JointState state;
 
     bool lives() const { return !removed && !broken; }
+    /// Do its bodies pass each other because of it?
+    bool keepsApart() const { return lives() && !def.collide && a != 0 && b != 0; }
     bool hasPoint() const { return def.kind == JointDef::Kind::Revolute || def.kind == JointDef::Kind::Weld; }
     /// Does the J of its rows depend on where the bodies are?
     bool rowsTurn() const { return !hasPoint(); }

@@ -53,10 +53,34 @@ void RigidStage::enable(const State& state, Index handle, bool enabled)
 /// Before the body is changed: the constraints of its contacts are those of what it was.
 void RigidStage::forgetContacts(Index body)
 {
+    forgetContactsIf([body](const RigidContact& c) { return c.bodyA == body || c.bodyB == body; });
+}
+
+/// What a joint holds, or held, meets as the joints there are say.
+void RigidStage::decideMeeting(const Joint& changed)
+{
+    const Index a = changed.a, b = changed.b;
+    if (a == 0 || b == 0) return;
+    const bool apart = changed.keepsApart() || std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
+                           return joint.keepsApart() && std::minmax(joint.a, joint.b) == std::minmax(a, b);
+                       });
+    if (apart == collider_.excludes(a, b)) return;
+    if (apart) {
+        collider_.exclude(a, b);
+        forgetContactsIf([&](const RigidContact& c) { return std::minmax(c.bodyA, c.bodyB) == std::minmax(a, b); });
+    } else {
+        // They were found before, and would not be found again while their boxes meet.
+        collider_.include(a, b);
+        collider_.seekAgain(a), collider_.seekAgain(b);
+    }
+}
+
+void RigidStage::forgetContactsIf(const std::function<bool(const RigidContact&)>& isMeant)
+{
     const auto& bodies = collider_.bodies();
     for (Index i = 0; i < collider_.places().size(); ++i) {
         const RigidContact& c = collider_.contacts()[i];
-        if (collider_.places()[i] == kFree || (c.bodyA != body && c.bodyB != body)) continue;
+        if (collider_.places()[i] == kFree || !isMeant(c)) continue;
         if (c.touching) ended_.push_back({bodies[c.bodyA].handle, bodies[c.bodyB].handle});
         if (active_ == Active::Single) single_.suspend(collider_, i);
         if (active_ == Active::Double) double_.suspend(collider_, i);

@@ -102,8 +102,8 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
     } else if (def.length < 0) {
         joint.length = (def.b.point - def.a.point).norm();
     }
-    if (!def.collide && joint.a != 0 && joint.b != 0) collider_.exclude(joint.a, joint.b);
     joints_.push_back(joint);
+    if (joint.keepsApart()) decideMeeting(joint);
     return static_cast<Index>(joints_.size() - 1);
 }
 
@@ -119,13 +119,7 @@ void RigidStage::setJoint(const State& state, Index index, const JointDef& def)
         const Vec2 axis = def.axis / length;
         joint.localAxis = joint.a == 0 ? axis : unrotated(state.nodes.rotation[collider_.bodies()[joint.a].node], axis);
     }
-    if (!joint.lives() || joint.a == 0 || joint.b == 0 || old.collide == def.collide) return;
-    if (def.collide) {
-        collider_.include(joint.a, joint.b);
-    } else {
-        collider_.exclude(joint.a, joint.b);
-    }
-    forgetPairs();
+    decideMeeting(joint);
 }
 
 void RigidStage::forgetPairs()
@@ -139,7 +133,7 @@ void RigidStage::removeJoint(Index index)
 {
     Joint& joint = joints_[index];
     joint.removed = true;
-    if (!joint.def.collide) collider_.include(joint.a, joint.b);
+    decideMeeting(joint);
 }
 
 /// Only one of the solvers has the contacts; they change hands with their impulses.
@@ -412,7 +406,7 @@ void RigidStage::breakJoints()
     for (Joint& joint : joints_)
         if (joint.lives() && joint.def.breakForce > 0 && joint.state.force.norm() > joint.def.breakForce) {
             joint.broken = true;
-            if (!joint.def.collide) collider_.include(joint.a, joint.b);
+            decideMeeting(joint);
         }
 }
 

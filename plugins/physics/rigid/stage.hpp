@@ -6,6 +6,8 @@
 #include "collider.hpp"
 #include "solver.hpp"
 
+#include <functional>
+
 namespace jet::physics {
 
 /// What holds bodies together, or awake, beside contacts and joints of their own; handles.
@@ -108,6 +110,9 @@ public:
     void rebuild()
     {
         collider_.rebuild();
+        collider_.includeAll();
+        for (const Joint& joint : joints_)
+            if (joint.keepsApart()) collider_.exclude(joint.a, joint.b);
         if (active_ != Active::Single) single_ = {};  // it was not in the state, and knows contacts of another one
         if (active_ != Active::Double) double_ = {};
         countMovers();
@@ -144,6 +149,8 @@ private:
     void noteTouches(const std::vector<TouchChange>&);
     void tellPartings();
     void forgetContacts(Index body);
+    void forgetContactsIf(const std::function<bool(const RigidContact&)>&);
+    void decideMeeting(const Joint&);
     void changed(Index body);
     void countMovers();
     void breakJoints();

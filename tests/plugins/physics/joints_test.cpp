@@ -387,6 +387,117 @@ TEST(Joints, TwoBodiesThatCannotMoveAreNoTrouble)
     EXPECT_THROW(world->addJoint(between(JointDef::Kind::Revolute, a, {0, 0}, a, {0, 0})), Failure);
 }
 
+TEST(Joints, ShortRopesAndRodsGiveNoEnergy)
+{
+    // Their direction turns by much, and over, within a substep.
+    for (const JointDef::Kind kind : {JointDef::Kind::Rope, JointDef::Kind::Distance}) {
+        for (const double length : {0.0, 0.01, 0.1, 0.3, 1.0, 3.0}) {
+            for (const double step : {1.0 / 30, kStep, 1.0 / 1000}) {
+                auto world = makeWorld({0, 98.1});
+                world->addRigidBody(simple(box({length + 6, 5}, 20, 20)));
+                JointDef joint;
+                joint.kind = kind;
+                joint.b = {0, {length, 0}};
+                world->addJoint(joint);
+                double most = 0;
+                for (int i = 0; i < 600; ++i) {
+                    world->step(step);
+                    const double omega = world->bodies().omega[0];
+                    most = std::max(most, 0.5 * world->bodies().velocity[0].squaredNorm() +
+                                              0.5 * 800 / 12 * omega * omega -
+                                              98.1 * (world->bodies().position[0].y() - 5));
+                }
+                EXPECT_LT(most, 0.02 * 98.1 * 20) << static_cast<int>(kind) << " " << length << " " << step;
+            }
+        }
+    }
+}
+
+/// A box on the ground, and one above it, a little apart.
+std::unique_ptr<PhysicsWorld> twoBoxes(double apart)
+{
+    auto world = makeWorld({0, 98.1});
+    world->addRigidBody(simple(ground(0)));
+    world->addRigidBody(simple(box({0, -10}, 20, 20)));
+    world->addRigidBody(simple(box({0, -30 - apart}, 20, 20)));
+    return world;
+}
+
+JointDef between(JointDef::Kind kind, const Vec2& point)
+{
+    JointDef def;
+    def.kind = kind;
+    def.a = {1, point}, def.b = {2, point};
+    return def;
+}
+
+TEST(Joints, WhatAJointHoldsNoLongerIsMetAtOnce)
+{
+    for (const bool breaks : {false, true}) {
+        auto world = twoBoxes(0.5);
+        const JointHandle weld = world->addJoint(between(JointDef::Kind::Weld, {0, -20}));
+        run(*world, 1);
+        EXPECT_FALSE(world->touching(1, 2));
+        if (breaks) {
+            JointDef weak = between(JointDef::Kind::Weld, {0, -20});
+            weak.breakForce = 1;
+            world->setJoint(weld, weak);
+        } else {
+            world->removeJoint(weld);
+        }
+        run(*world, 2);
+        EXPECT_EQ(world->joint(weld).broken, breaks);
+        EXPECT_NEAR(world->bodies().position[2].y(), -30, 0.1) << "it stands on the lower one";
+        EXPECT_TRUE(world->touching(1, 2));
+    }
+}
+
+TEST(Joints, ANewJointEndsTheTouchOfWhatItHolds)
+{
+    auto world = twoBoxes(0);
+    run(*world, 1);
+    ASSERT_TRUE(world->touching(1, 2));
+    world->addJoint(between(JointDef::Kind::Revolute, {0, -20}));
+    world->setOmega(2, 6);
+    run(*world, 0.3);
+    EXPECT_FALSE(world->touching(1, 2));
+    EXPECT_GT(world->bodies().angle[2], 0.5) << "its corner goes through the lower one";
+}
+
+TEST(Joints, BodiesPassEachOtherUntilTheLastJointThatSaysSoIsGone)
+{
+    auto world = twoBoxes(-5);
+    const JointHandle weld = world->addJoint(between(JointDef::Kind::Weld, {0, -18}));
+    const JointHandle rope = world->addJoint(between(JointDef::Kind::Rope, {0, -18}));
+    run(*world, 0.5);
+    world->removeJoint(weld);
+    run(*world, 0.5);
+    EXPECT_FALSE(world->touching(1, 2));
+    world->removeJoint(rope);
+    world->step(kStep);
+    EXPECT_TRUE(world->touching(1, 2));
+}
+
+TEST(Joints, BodiesPassEachOtherAgainInAWorldRestoredToBeforeTheBreak)
+{
+    auto world = twoBoxes(-5);
+    JointDef weak = between(JointDef::Kind::Weld, {0, -18});
+    weak.breakForce = 1e5;
+    world->addJoint(weak);
+    run(*world, 0.5);
+    const auto whole = world->save();
+    run(*world, 0.5);
+    const auto future = world->hash();
+    world->restore(whole);
+    world->applyForce(2, {0, -1e7});
+    run(*world, 0.5);
+    ASSERT_TRUE(world->joint(0).broken);
+    world->restore(whole);
+    run(*world, 0.5);
+    EXPECT_FALSE(world->touching(1, 2));
+    EXPECT_EQ(world->hash(), future);
+}
+
 TEST(Joints, AMouseJointBringsABodyToItsTarget)
 {
     auto world = makeWorld({0, 0});
