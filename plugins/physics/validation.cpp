@@ -38,6 +38,7 @@ void requireSpring(std::string_view what, double restLength, double ks, double k
     requireFinite(what, {restLength, ks, kd, tearRatio});
     if (ks < 0 || kd < 0)
         fail(std::string(what) + ": stiffness and damping must not be negative, or it would gain energy.");
+    if (tearRatio < 0) fail(std::string(what) + ": its tear ratio must not be negative; 0 never tears.");
 }
 
 void validate(const WorldSettings& settings)
@@ -53,6 +54,7 @@ void validate(const WorldSettings& settings)
         requireFinite("a material's friction or restitution", {pair.friction, pair.restitution});
         if (pair.friction < 0 || pair.restitution < 0)
             fail("a material's friction and restitution must not be negative.");
+        if (pair.restitution > 1) fail("a material's restitution must not be above 1, or hits would give energy.");
     }
 }
 
@@ -61,6 +63,7 @@ void validate(const BodyCommon& common, const WorldSettings& settings)
     requireBelow("material", common.material, settings.materialCount);
     requireFinite("a body's initial velocity", common.velocity);
     requireFinite("a body's initial turning rate or gravity scale", {common.omega, common.gravityScale});
+    requireFinite("a body's one-sided direction", common.oneSided);
 }
 
 void validate(const SoftBodyDef& def, const WorldSettings& settings)
@@ -106,6 +109,7 @@ void validate(const ForceFieldDef& def)
     requireFinite("a field's strength, reach or drag", {def.strength, def.reach, def.drag});
     if (def.drag < 0 || (def.kind == ForceFieldDef::Kind::Drag && def.strength < 0))
         fail("a field's drag must not be negative, or it would give energy without end.");
+    if (def.reach < 0) fail("a field's reach must not be negative; 0 is everywhere the same.");
     for (const auto& ring : def.region)
         for (const Vec2& at : ring) requirePlace("a point of a field's region", at);
 }
@@ -127,6 +131,7 @@ void validate(const RigidBodyDef& def, const WorldSettings& settings)
 void validate(const ShapeDef& shape)
 {
     for (const Vec2& at : shape.points) requirePlace("a shape's point", at);
+    requireFinite("a shape's radius", {shape.radius});
     if (shape.kind == ShapeDef::Kind::Polygon) {
         if (shape.points.size() < 3 || shape.points.size() > 8)
             fail("a polygon shape has 3 to 8 points, not " + std::to_string(shape.points.size()) +
@@ -139,7 +144,6 @@ void validate(const ShapeDef& shape)
     }
     const std::size_t wanted = shape.kind == ShapeDef::Kind::Circle ? 1 : 2;
     if (shape.points.size() != wanted) fail("a circle shape has one point, a capsule two.");
-    requireFinite("a shape's radius", {shape.radius});
     if (!(shape.radius > 0)) fail("a shape's radius must be greater than 0.");
 }
 
@@ -162,6 +166,8 @@ void validateJoint(const JointDef& def)
     if (def.maxForce < 0 || def.maxTorque < 0 || def.hertz < 0 || def.dampingRatio < 0 || def.lower > def.upper)
         throw Failure(Error("Physics: a joint's force, torque, frequency and damping must not be negative, and its "
                             "lower limit not above its upper one."));
+    if (def.breakForce < 0) fail("a joint's breaking force must not be negative; 0 never breaks.");
+    if (def.kind == JointDef::Kind::Pulley && !(def.ratio > 0)) fail("a pulley's ratio must be greater than 0.");
 }
 
 }  // namespace jet::physics

@@ -211,6 +211,37 @@ TEST(Robustness, NonsenseIsRefusedWithASentence)
         settings.materialCount = 3;
         JetPhysics().createWorld(settings);
     }));
+    EXPECT_TRUE(refuses([&] {
+        WorldSettings settings;
+        settings.materials[0].restitution = 1.01;
+        JetPhysics().createWorld(settings);
+    }));
+    EXPECT_TRUE(refuses([&] {
+        RigidBodyDef def = box({0, 0}, 1, 1);
+        def.common.oneSided = {0, kNan};
+        world->addRigidBody(def);
+    }));
+    EXPECT_TRUE(refuses([&] {
+        ForceFieldDef def;
+        def.reach = -1;
+        world->addForceField(def);
+    }));
+    EXPECT_TRUE(refuses([&] {
+        JointDef def;
+        def.b.body = 0, def.breakForce = -1;
+        world->addJoint(def);
+    }));
+    EXPECT_TRUE(refuses([&] {
+        JointDef def;
+        def.kind = JointDef::Kind::Pulley;
+        def.b.body = 0, def.ratio = 0;
+        world->addJoint(def);
+    }));
+    EXPECT_TRUE(refuses([&] {
+        SpringActuatorDef def;
+        def.b.body = 0, def.tearRatio = -1;
+        world->addSpring(def);
+    }));
     EXPECT_EQ(world->bodyCount(), 1u) << "what was refused left nothing behind";
     world->step(kStep);
     EXPECT_TRUE(allFinite(*world));
