@@ -60,6 +60,15 @@ void limitSpeed(Vec2& velocity, double& omega)
     if (!(std::abs(omega) <= kMostTurningRate)) omega = std::isnan(omega) ? 0 : std::copysign(kMostTurningRate, omega);
 }
 
+void limitMove(Vec2& move, double& turn, double dt)
+{
+    const double most = kMostSpeed * dt;
+    if (move.squaredNorm() <= most * most && std::abs(turn) <= kMostTurningRate * dt) return;
+    move /= dt, turn /= dt;
+    limitSpeed(move, turn);
+    move *= dt, turn *= dt;
+}
+
 void integratePositions(State& state, const SoftSprings& springs, double h)
 {
     Nodes& nodes = state.nodes;

@@ -6,5 +6,7 @@
 namespace jet::physics {
 
 void limitSpeed(Vec2& velocity, double& omega);
+/// The same for what a body moves and turns in dt seconds.
+void limitMove(Vec2& move, double& turn, double dt);
 
 }  // namespace jet::physics

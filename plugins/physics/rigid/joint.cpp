@@ -123,7 +123,7 @@ public:
         const Real inverse = a.invMass * (row.ax * row.ax + row.ay * row.ay + row.angularA * row.angularA) +
                              b.invMass * (row.bx * row.bx + row.by * row.by + row.angularB * row.angularB);
         row.mass = inverse > 0 ? 1 / inverse : 0;
-        row.impulse = static_cast<Real>(joint_.impulse[slot]);
+        row.impulse = static_cast<Real>(joint_.warm(slot, h_));
         row.least = static_cast<Real>(-kUnlimited), row.most = static_cast<Real>(kUnlimited);
         return rows_.emplace_back(row);
     }
@@ -292,8 +292,8 @@ bool TurningRows<Real>::make(const JointFrame& f, const BodyState<Real>* states,
     return made.size() == count_;
 }
 
-/// Does its direction turn by more than half a radian, as of a short rope, or beside the wheel of a pulley? Then what is
-/// foreseen, or was given, is of another way.
+/// Does its direction turn by more than half a radian, as of a short rope, or beside the wheel of a pulley? Then what
+/// is foreseen, or was given, is of another way.
 template <class Real>
 bool turnsFar(const JointRow<Real>& now, const JointRow<Real>& then)
 {

@@ -57,8 +57,11 @@ struct Joint {
     bool removed = false, broken = false;
     // Of the last substep: the point's two, then the rows'. Warm starting.
     double impulse[6] = {0, 0, 0, 0, 0, 0};
+    double substep = 0;  // seconds: the impulses are of substeps of this; 0: there are none yet
     JointState state;
 
+    /// The impulse of a substep of h that stands for the same force.
+    double warm(int slot, double h) const { return substep > 0 ? impulse[slot] * (h / substep) : 0; }
     bool lives() const { return !removed && !broken; }
     /// Do its bodies pass each other because of it?
     bool keepsApart() const { return lives() && !def.collide && a != 0 && b != 0; }

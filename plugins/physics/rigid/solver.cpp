@@ -90,7 +90,8 @@ void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const
     const Real determinant = xx * yy - xy * xy;
     const Real inverse = determinant > 0 ? 1 / determinant : 0;
     g.inverseXX[lane] = yy * inverse, g.inverseYY[lane] = xx * inverse, g.inverseXY[lane] = -xy * inverse;
-    g.impulseX[lane] = static_cast<Real>(joint.impulse[0]), g.impulseY[lane] = static_cast<Real>(joint.impulse[1]);
+    g.impulseX[lane] = static_cast<Real>(joint.warm(0, shape_.h));
+    g.impulseY[lane] = static_cast<Real>(joint.warm(1, shape_.h));
 }
 
 /// Subtrees at once, as many as there are threads; then what lies above them.
@@ -346,12 +347,14 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
             joint.impulse[0] = static_cast<double>(colour.joints[at / kLanes<Real>].impulseX[at % kLanes<Real>]);
             joint.impulse[1] = static_cast<double>(colour.joints[at / kLanes<Real>].impulseY[at % kLanes<Real>]);
             joint.state.force += Vec2(joint.impulse[0], joint.impulse[1]) / shape_.h;
+            joint.substep = shape_.h;
         }
     }
     for (const auto& rows : rows_)
         for (const JointRow<Real>& row : rows) {
             Joint& joint = joints[row.joint];
             joint.impulse[row.slot] = static_cast<double>(row.impulse);
+            joint.substep = shape_.h;
             joint.state.force += static_cast<double>(row.impulse) / shape_.h * Vec2(row.bx, row.by);
             if (row.bx == 0 && row.by == 0) joint.state.torque += row.torqueOfB() / shape_.h;
         }

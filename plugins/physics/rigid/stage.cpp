@@ -283,15 +283,16 @@ template <class Real>
 void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
 {
     Nodes& nodes = state.nodes;
-    const auto moveOf = [](const BodyState<Real>& s) {
-        return Vec2(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
+    const auto moveOf = [&](Index body, const BodyState<Real>& s) {
+        Vec2 move(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
+        double turn = static_cast<double>(s.sweep) / collider_.bodies()[body].gyration;
+        limitMove(move, turn, dt);
+        return std::pair(move, turn);
     };
     const bool fast = anyFast(solver);
     if (fast) {
         moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
-        solver.eachBody([&](Index i, const BodyState<Real>& s) {
-            moves_[i] = moveOf(s), turns_[i] = static_cast<double>(s.sweep) / collider_.bodies()[i].gyration;
-        });
+        solver.eachBody([&](Index i, const BodyState<Real>& s) { std::tie(moves_[i], turns_[i]) = moveOf(i, s); });
         collider_.stopTunnelling(allowed_, moves_, turns_, dt);
     }
     solver.eachBody([&](Index i, const BodyState<Real>& s) {
@@ -301,10 +302,10 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
         nodes.omega[body.node] = static_cast<double>(s.spin) / body.gyration;
         limitSpeed(nodes.velocity[body.node], nodes.omega[body.node]);
-        const Vec2 move = part * moveOf(s);
-        nodes.position[body.node] += move;
-        const double turn = part * static_cast<double>(s.sweep) / body.gyration;
-        collider_.travelled(i, part * moveOf(s).norm() + std::abs(turn) * static_cast<double>(body.reach));
+        const auto [move, whole] = moveOf(i, s);
+        nodes.position[body.node] += part * move;
+        const double turn = part * whole;
+        collider_.travelled(i, part * move.norm() + std::abs(turn) * static_cast<double>(body.reach));
         if (turn == 0) return;
         nodes.angle[body.node] += turn;
         nodes.rotation[body.node] = direction(nodes.angle[body.node]);
@@ -320,7 +321,7 @@ bool RigidStage::anyFast(Solver<Real>& solver)
         const RigidBody& body = collider_.bodies()[i];
         const Vec2 move(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
         if (body.moves &&
-            move.squaredNorm() > 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length))
+            !(move.squaredNorm() <= 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length)))
             any.store(true, std::memory_order_relaxed);
     });
     return any;
@@ -358,7 +359,9 @@ void RigidStage::exchange(State& state, bool store)
         const double gyration = collider_.bodies()[i].gyration;
         BodyState<double>& s = double_.body(i);
         if (store) {
-            if (s.invMass > 0) nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega[node] = s.spin / gyration;
+            if (s.invMass == 0) continue;
+            nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega[node] = s.spin / gyration;
+            limitSpeed(nodes.velocity[node], nodes.omega[node]);
             continue;
         }
         s.velocityX = nodes.velocity[node].x(), s.velocityY = nodes.velocity[node].y();

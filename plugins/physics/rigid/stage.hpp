@@ -99,7 +99,7 @@ public:
         if (active_ == Active::Single) single_.archive(with, collider_);
         if (active_ == Active::Double) double_.archive(with, collider_);
         for (Joint& joint : joints_) {
-            with(joint.removed), with(joint.broken), with(joint.impulse);
+            with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.substep);
             with(joint.localA), with(joint.localB), with(joint.localAxis), with(joint.length);
             JointDef& def = joint.def;
             with(def.limited), with(def.lower), with(def.upper), with(def.driven), with(def.motorSpeed);

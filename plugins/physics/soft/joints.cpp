@@ -177,6 +177,7 @@ void Joints::solve(State& state, Held& held, bool push)
         end->spin = end->perGyration > 0 ? pose->omega / end->perGyration : 0;
     }
     rows_.clear();
+    joint.substep = h_;  // they have been scaled
     addRows(joint, 0, f, ends_.data(), joint.a, joint.b, h_, rows_);
     const Vec2 apart = f.pointB - f.pointA;
     if (joint.hasPoint()) {
