@@ -21,6 +21,7 @@ void findPairs(const State& state, const std::vector<Motion>& motions, std::vect
             if (other.min.y() > own.max.y() || other.max.y() < own.min.y()) continue;
             if (state.bodies[order[i]].fixed && state.bodies[order[j]].fixed) continue;
             if (state.bodies[order[i]].simple && state.bodies[order[j]].simple) continue;
+            if (!state.mayMeet(order[i], order[j])) continue;
             pairs.push_back({std::min(order[i], order[j]), std::max(order[i], order[j])});
         }
     }

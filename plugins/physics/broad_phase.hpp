@@ -21,7 +21,7 @@ struct Motion {
 };
 
 /// Pairs whose reaches meet, by a sweep over boxes sorted along x; in ascending order. Pairs of fixed bodies are left
-/// out.
+/// out, and those that layers, masks and groups keep apart.
 void findPairs(const State&, const std::vector<Motion>& motions, std::vector<BodyPair>& pairs);
 
 }  // namespace jet::physics

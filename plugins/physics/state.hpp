@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace jet::physics {
@@ -120,6 +121,12 @@ struct BodyRecord {
     bool meetsOwn() const { return soft && (soft->matter.selfCollision || soft->pieceCount > 1); }
 };
 
+/// Whom a body meets, beside its layer.
+struct Filter {
+    std::uint32_t mask = ~0U, group = 0;
+    friend bool operator==(const Filter&, const Filter&) = default;
+};
+
 /// What is read after a step, one entry a body. Where nothing goes by points and walls, nodes are bodies, and say the
 /// first four; the others are made for who looks at them.
 struct BodyReadings {
@@ -141,10 +148,24 @@ struct State {
     Points points;
     Walls walls;
     std::vector<BodyRecord> bodies;
+    Column<Filter> filters{Filter()};  // rows up to that of the last body that does not meet all
     BodyReadings readings;
     mutable Scratch scratch;  // holds nothing between calls
     const soft::CloudKernels* clouds = &soft::sse2::clouds;
 
+    /// Do their layers, masks and groups let them meet?
+    bool mayMeet(Index a, Index b) const
+    {
+        const Filter filterA = filters[a], filterB = filters[b];
+        if (filterA.group != 0 && filterA.group == filterB.group) return false;
+        return (bodies[a].layer & filterB.mask) != 0 && (bodies[b].layer & filterA.mask) != 0;
+    }
+    void setFilter(Index body, const Filter& filter)
+    {
+        if (filter == std::as_const(filters)[body]) return;
+        filters.cover(body + 1);
+        filters[body] = filter;
+    }
     Vec2 pointNow(Index point) const
     {
         const Index node = points.node[point];

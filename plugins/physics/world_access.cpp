@@ -160,8 +160,12 @@ void World::archive(Self& self, Archive& with)
     self.shapes_.archive(with);
     self.actuators_.archive(with);
     self.fields_.archive(with);
-    for (BodyRecord& body : self.state_.bodies) {
+    for (Index handle = 0; handle < self.state_.bodies.size(); ++handle) {
+        BodyRecord& body = self.state_.bodies[handle];
         with(body.material), with(body.gravityScale), with(body.layer);
+        Filter filter = std::as_const(self.state_.filters)[handle];
+        with(filter.mask), with(filter.group);
+        self.state_.setFilter(handle, filter);
         const auto flag = [&with](auto get, auto set) {
             std::uint8_t value = get();
             with(value);

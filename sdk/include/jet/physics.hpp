@@ -91,7 +91,7 @@ struct BodyCommon {
     double gravityScale = 1;
     bool sensor = false;  ///< contacts are reported, not resolved
 
-    // Rigid bodies only.
+    // Rigid bodies only, but for group, layer and mask.
     bool kinematic = false;      ///< moves with its velocity and omega, and nothing pushes it
     bool fixedRotation = false;  ///< never turns
     std::uint32_t group = 0;     ///< bodies of one group above 0 do not collide with each other

@@ -199,6 +199,38 @@ TEST(SoftContacts, ARestingBodyThatIsHitIsNotPassed)
     }
 }
 
+TEST(SoftContacts, LayersMasksAndGroupsAreHeeded)
+{
+    // Balls over a floor on layer 2 and over a soft one of group 7: who does not meet it falls through.
+    auto world = makeWorld({0, 98});
+    RigidBodyDef floor = simple(ground(0));
+    floor.common.layer = 2;
+    world->addRigidBody(floor);
+    const auto add = [&](double x, double y, std::uint32_t mask, std::uint32_t group, bool fixed = false) {
+        SoftBodyDef ball = softBall({x, y}, 20);
+        ball.common.mask = mask, ball.common.group = group, ball.common.fixed = fixed;
+        return world->addSoftBody(ball);
+    };
+    const BodyHandle held = add(-300, -40, ~0U, 0), through = add(-150, -40, ~2U, 0);
+    add(150, 0, ~0U, 7, true), add(300, 0, ~0U, 7, true);
+    const BodyHandle alike = add(150, -60, ~2U, 7), other = add(300, -60, ~0U, 8);
+    const auto saved = world->save();
+    run(*world, 2);
+    const auto height = [&](BodyHandle body) { return world->bodies().position[body].y(); };
+    EXPECT_LT(height(held), 0);
+    EXPECT_GT(height(through), 100);
+    EXPECT_GT(height(alike), 100);
+    EXPECT_LT(height(other), -20);
+    BodyCommon common;
+    common.mask = ~2U;
+    world->setBody(held, common);
+    run(*world, 2);
+    EXPECT_GT(height(held), 100) << "it does not meet the floor any more";
+    world->restore(saved);
+    run(*world, 2);
+    EXPECT_LT(height(held), 0) << "nor does what was saved know of that";
+}
+
 TEST(SoftContacts, AThicknessGivenWhileBodiesRestIsFelt)
 {
     auto world = restingColumn();
