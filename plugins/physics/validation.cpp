@@ -7,7 +7,16 @@ namespace {
 // Beyond these, squares and products leave the range of double.
 constexpr double kFarthest = 1e12, kLargest = 1e30;
 
+constexpr int kMostThreads = 64, kMostSubsteps = 4096;
+
 [[noreturn]] void fail(std::string message) { throw Failure(Error("Physics: " + std::move(message))); }
+
+void requireCount(std::string_view what, int count, int least, int most)
+{
+    if (count < least || count > most)
+        fail("the number of " + std::string(what) + " is " + std::to_string(count) + ", not " + std::to_string(least) +
+             " to " + std::to_string(most) + ".");
+}
 
 }  // namespace
 
@@ -45,6 +54,8 @@ void validate(const WorldSettings& settings)
 {
     requireFinite("gravity", settings.gravity);
     requireFinite("the world's damping", {settings.linearDamping, settings.angularDamping});
+    requireCount("threads", settings.threads, 1, kMostThreads);
+    requireCount("substeps", settings.substeps, 0, kMostSubsteps);
     if (settings.linearDamping < 0 || settings.angularDamping < 0) fail("the world's damping must not be negative.");
     const std::size_t wanted = static_cast<std::size_t>(settings.materialCount) * settings.materialCount;
     if (settings.materialCount == 0 || settings.materials.size() != wanted)
@@ -56,6 +67,17 @@ void validate(const WorldSettings& settings)
             fail("a material's friction and restitution must not be negative.");
         if (pair.restitution > 1) fail("a material's restitution must not be above 1, or hits would give energy.");
     }
+    const auto same = [](const MaterialPair& p, const MaterialPair& q) {
+        return p.friction == q.friction && p.restitution == q.restitution && p.collides == q.collides;
+    };
+    const auto pairOf = [&](std::size_t a, std::size_t b) -> const MaterialPair& {
+        return settings.materials[a * settings.materialCount + b];
+    };
+    for (std::size_t a = 0; a < settings.materialCount; ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            if (!same(pairOf(a, b), pairOf(b, a)))
+                fail("the materials " + std::to_string(b) + " and " + std::to_string(a) +
+                     " meet differently in the two places of the table; give both the same.");
 }
 
 void validate(const BodyCommon& common, const WorldSettings& settings)
@@ -83,6 +105,7 @@ void validate(const SoftBodyDef& def, const WorldSettings& settings)
         for (std::uint32_t index : border) requireBelow("a border's particle", index, count);
     for (const SpringDef& spring : def.springs) {
         requireBelow("a spring's particle", std::max(spring.a, spring.b), count);
+        if (spring.restLength < 0) fail("a spring's rest length must not be negative.");
         requireSpring("a spring", spring.restLength, spring.ks, spring.kd, spring.tearRatio);
     }
     for (const AngularSpringDef& spring : def.angularSprings) {

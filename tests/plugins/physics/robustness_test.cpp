@@ -207,6 +207,25 @@ TEST(Robustness, NonsenseIsRefusedWithASentence)
     EXPECT_TRUE(refuses([&] { world->step(-1); }));
     EXPECT_TRUE(refuses([&] { world->step(kNan); }));
     EXPECT_TRUE(refuses([&] {
+        SoftBodyDef def = softBall({0, 0}, 10);
+        def.springs[0].restLength = -1;
+        world->addSoftBody(def);
+    }));
+    for (const auto& [threads, substeps] : {std::pair(0, 0), {65, 0}, {1, -1}, {1, 5000}})
+        EXPECT_TRUE(refuses([&] {
+            WorldSettings settings;
+            settings.threads = threads, settings.substeps = substeps;
+            JetPhysics().createWorld(settings);
+        })) << threads
+            << " threads, " << substeps << " substeps";
+    EXPECT_TRUE(refuses([&] {
+        WorldSettings settings;
+        settings.materialCount = 2;
+        settings.materials.assign(4, MaterialPair());
+        settings.materials[1].friction = 0.1;
+        JetPhysics().createWorld(settings);
+    })) << "a table that is not symmetric";
+    EXPECT_TRUE(refuses([&] {
         WorldSettings settings;
         settings.materialCount = 3;
         JetPhysics().createWorld(settings);
