@@ -81,7 +81,7 @@ JointFrame frameOf(const Joint&, const State&, const std::vector<RigidBody>&);
 template <class Real>
 class TurningRows {
 public:
-    /// Its rows are the last `count` of those given.
+    /// Its rows are `count` of those of its node, from `first` on.
     TurningRows(const Joint& joint, Index index, const JointFrame& start, Index a, Index b, std::size_t first,
                 std::size_t count)
         : joint_(&joint), index_(index), a_(a), b_(b), first_(first), count_(count), start_(start)
