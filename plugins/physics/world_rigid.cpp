@@ -118,7 +118,7 @@ JointState World::joint(JointHandle handle) const
     handle = at.index;
     const Joint& joint = rigid_.joint(handle);
     const JointFrame frame = frameOf(joint, state_, rigid_.collider().bodies());
-    JointState state = joint.state;
+    JointState state = const_cast<World*>(this)->rigid_.stateOf(handle);  // a cache of what the solver has
     state.broken = joint.broken;
     state.pointA = frame.pointA;
     state.pointB = frame.pointB;
@@ -140,10 +140,9 @@ void World::setMotor(JointHandle handle, bool driven, double speed)
     handle = at.index;
     requireFinite("a motor's speed", {speed});
     if (at.soft) return softJoints_.setMotor(at.index, driven, speed);
-    JointDef& def = rigid_.joint(handle).def;
+    const JointDef& def = rigid_.joint(handle).def;
     if (def.driven != driven || def.motorSpeed != speed) wakeHeld(def);
-    def.driven = driven;
-    def.motorSpeed = speed;
+    rigid_.setMotor(handle, driven, speed);
 }
 
 void World::setJointTarget(JointHandle handle, const Vec2& target)
@@ -153,11 +152,10 @@ void World::setJointTarget(JointHandle handle, const Vec2& target)
     requirePlace("a joint's target", target);
     if (at.soft && softJoints_.setTarget(at.index, target)) return;
     if (at.soft) throw Failure(Error("Physics: only a joint with the background has a target."));
-    Joint& joint = rigid_.joint(handle);
+    const Joint& joint = rigid_.joint(handle);
     if (joint.a != 0 && joint.b != 0) throw Failure(Error("Physics: only a joint with the background has a target."));
-    Vec2& end = joint.a == 0 ? joint.localA : joint.localB;
-    if (end != target) wakeHeld(joint.def);
-    end = target;
+    if ((joint.a == 0 ? joint.localA : joint.localB) != target) wakeHeld(joint.def);
+    rigid_.setTarget(handle, target);
 }
 
 void World::removeJoint(JointHandle handle)

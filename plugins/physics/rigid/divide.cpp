@@ -69,6 +69,7 @@ void Solver<Real>::divide(Collider& collider, const State& state, const std::vec
             if (joint.lives()) link(joint.a, joint.b);
         domains_.divide(depth, std::move(bodies), links);
         moveToNodes(collider);
+        jointsVersion_ = 0;
         bordersThen_ = borderContacts();
     }
     if (states_.size() != domains_.slotCount()) states_ = arena_->take<BodyState<Real>>(domains_.slotCount());

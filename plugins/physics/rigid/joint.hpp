@@ -66,6 +66,7 @@ struct Joint {
     /// Do its bodies pass each other because of it?
     bool keepsApart() const { return lives() && !def.collide && a != 0 && b != 0; }
     bool hasPoint() const { return def.kind == JointDef::Kind::Revolute || def.kind == JointDef::Kind::Weld; }
+    bool hasRows() const { return def.kind != JointDef::Kind::Revolute || def.driven || def.limited; }
     /// Does the J of its rows depend on where the bodies are?
     bool rowsTurn() const { return !hasPoint(); }
 };

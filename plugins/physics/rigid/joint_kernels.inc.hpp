@@ -1,21 +1,15 @@
 // The kernels of points that joints hold together, included by kernels.inc.hpp; the scheme is in solver_data.hpp.
 
-/// Arms in radii of gyration, and what is done with them.
+/// Gives the bodies of a group an impulse, and its opposite.
 template <class Real>
-struct Arms {
-    Lanes<Real> ax, ay, bx, by;
-
-    Arms(const JointLanes<Real>& j, const MoveLanes<Real>& moveA, const MoveLanes<Real>& moveB)
-        : ax(moveA.perGyration * j.armAX), ay(moveA.perGyration * j.armAY), bx(moveB.perGyration * j.armBX),
-          by(moveB.perGyration * j.armBY)
-    {
-    }
-    JET_INLINE void pull(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x, const Lanes<Real>& y) const
-    {
-        a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y, a.spin -= a.invMass * (ax * y - ay * x);
-        b.velocityX += b.invMass * x, b.velocityY += b.invMass * y, b.spin += b.invMass * (bx * y - by * x);
-    }
-};
+JET_INLINE void pull(const JointLanes<Real>& j, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x,
+                     const Lanes<Real>& y)
+{
+    a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y;
+    a.spin -= a.invMass * (j.leverAX * y - j.leverAY * x);
+    b.velocityX += b.invMass * x, b.velocityY += b.invMass * y;
+    b.spin += b.invMass * (j.leverBX * y - j.leverBY * x);
+}
 
 template <class Real>
 void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::size_t count)
@@ -23,10 +17,91 @@ void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::si
     for (std::size_t g = 0; g < count; ++g) {
         const JointLanes<Real>& j = groups[g];
         BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
-        const Arms<Real> arms(j, moves(bodies, j.a), moves(bodies, j.b));
-        arms.pull(a, b, j.impulseX, j.impulseY);
+        pull<Real>(j, a, b, j.impulseX, j.impulseY);
         scatter(bodies, j.a, a);
         scatter(bodies, j.b, b);
+    }
+}
+
+/// Makes levers and masses of the arms.
+template <class Real>
+JET_INLINE void weigh(JointLanes<Real>& j, const Lanes<Real>& invMassA, const Lanes<Real>& invMassB)
+{
+    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
+    const Lanes<Real> ax = j.armAX, ay = j.armAY, bx = j.armBX, by = j.armBY;
+    j.leverAX = j.perGyrationA * ax, j.leverAY = j.perGyrationA * ay;
+    j.leverBX = j.perGyrationB * bx, j.leverBY = j.perGyrationB * by;
+    const Lanes<Real> mass = invMassA + invMassB;
+    const Lanes<Real> inertiaA = invMassA * j.perGyrationA * j.perGyrationA;  // inverse
+    const Lanes<Real> inertiaB = invMassB * j.perGyrationB * j.perGyrationB;
+    const Lanes<Real> xx = mass + inertiaA * ay * ay + inertiaB * by * by;
+    const Lanes<Real> yy = mass + inertiaA * ax * ax + inertiaB * bx * bx;
+    const Lanes<Real> xy = -inertiaA * ax * ay - inertiaB * bx * by;
+    const Lanes<Real> determinant = xx * yy - xy * xy;
+    const Mask<Real> sound = determinant > zero;
+    const Lanes<Real> inverse = choose<Real>(sound, one / choose<Real>(sound, determinant, one), zero);
+    j.inverseXX = yy * inverse, j.inverseYY = xx * inverse, j.inverseXY = -xy * inverse;
+}
+
+typedef double PlaceRow __attribute__((vector_size(32), may_alias));
+
+/// Four values of each of four places, those of a kind together.
+JET_INLINE void gatherPlaces(const BodyPlace* places, const std::int32_t* index, Lanes<double> (&out)[4])
+{
+    const auto row = [&](int i) { return *reinterpret_cast<const PlaceRow*>(&places[index[i]]); };
+    const Lanes<double> c0 = row(0), c1 = row(1), c2 = row(2), c3 = row(3);
+    const Lanes<double> t0 = __builtin_shufflevector(c0, c1, 0, 4, 2, 6),
+                        t1 = __builtin_shufflevector(c0, c1, 1, 5, 3, 7);
+    const Lanes<double> t2 = __builtin_shufflevector(c2, c3, 0, 4, 2, 6),
+                        t3 = __builtin_shufflevector(c2, c3, 1, 5, 3, 7);
+    out[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5), out[1] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
+    out[2] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7), out[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+}
+
+/// Arms of four joints, and where they end. On the background (body 0) there is no arm, and the anchor is the place.
+struct Ends {
+    Lanes<double> armX, armY, x, y;
+
+    JET_INLINE Ends(const BodyPlace* places, const std::int32_t* index, const Lanes<double>& anchorX,
+                    const Lanes<double>& anchorY)
+    {
+        const Lanes<double> zero = all<double>(0);
+        const Mask<double> ground = {-(index[0] == 0), -(index[1] == 0), -(index[2] == 0), -(index[3] == 0)};
+        Lanes<double> place[4];
+        gatherPlaces(places, index, place);
+        const Lanes<double> turnedX = place[2] * anchorX - place[3] * anchorY;
+        const Lanes<double> turnedY = place[3] * anchorX + place[2] * anchorY;
+        armX = choose<double>(ground, zero, turnedX), armY = choose<double>(ground, zero, turnedY);
+        x = place[0] + choose<double>(ground, anchorX, turnedX);
+        y = place[1] + choose<double>(ground, anchorY, turnedY);
+    }
+};
+
+JET_INLINE void putFour(Lanes<double>& to, int, const Lanes<double>& values) { to = values; }
+JET_INLINE void putFour(Lanes<float>& to, int four, const Lanes<double>& values)
+{
+    reinterpret_cast<Four*>(&to)[four] = __builtin_convertvector(values, Four);
+}
+
+template <class Real>
+void startJoints(const BodyState<Real>* bodies, const BodyPlace* places, JointLanes<Real>* groups,
+                 const AnchorLanes<Real>* anchors, std::size_t count)
+{
+    for (std::size_t g = 0; g < count; ++g) {
+        JointLanes<Real>& j = groups[g];
+        for (int i = 0; i < AnchorLanes<Real>::kFours; ++i) {
+            const Ends a(places, j.a + 4 * i, anchors[g].ax[i], anchors[g].ay[i]);
+            const Ends b(places, j.b + 4 * i, anchors[g].bx[i], anchors[g].by[i]);
+            const Lanes<double> errorX = b.x - a.x, errorY = b.y - a.y;
+            putFour(j.startAX, i, a.armX), putFour(j.startAY, i, a.armY);
+            putFour(j.startBX, i, b.armX), putFour(j.startBY, i, b.armY);
+            putFour(j.armAX, i, a.armX + 0.5 * errorX), putFour(j.armAY, i, a.armY + 0.5 * errorY);
+            putFour(j.armBX, i, b.armX - 0.5 * errorX), putFour(j.armBY, i, b.armY - 0.5 * errorY);
+            putFour(j.startErrorX, i, errorX), putFour(j.startErrorY, i, errorY);
+        }
+        j.errorX = j.startErrorX, j.errorY = j.startErrorY;
+        j.perGyrationA = moves(bodies, j.a).perGyration, j.perGyrationB = moves(bodies, j.b).perGyration;
+        weigh<Real>(j, velocities(bodies, j.a).invMass, velocities(bodies, j.b).invMass);
     }
 }
 
@@ -36,12 +111,12 @@ void foreseeJoints(const BodyState<Real>* bodies, JointLanes<Real>* groups, std:
 {
     // A body that turns by more than a radian a substep is not foreseen farther than that.
     const Lanes<Real> zero = all<Real>(0), half = all(step.h / 2), most = all(step.inverseH / 2);
+    const Lanes<Real> rate = all(step.joint.biasRate);
     constexpr Real kHeld = Real(0.1);
     for (std::size_t g = 0; g < count; ++g) {
         JointLanes<Real>& j = groups[g];
         const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
-        const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
-        const Lanes<Real> omegaA = moveA.perGyration * a.spin, omegaB = moveB.perGyration * b.spin;
+        const Lanes<Real> omegaA = j.perGyrationA * a.spin, omegaB = j.perGyrationB * b.spin;
         const Lanes<Real> inwardA = least(half * omegaA * omegaA, most);
         const Lanes<Real> inwardB = least(half * omegaB * omegaB, most);
         const Lanes<Real> aroundAX = -omegaA * j.armAY, aroundAY = omegaA * j.armAX;
@@ -51,33 +126,47 @@ void foreseeJoints(const BodyState<Real>* bodies, JointLanes<Real>* groups, std:
         const Lanes<Real> turning =
             aroundAX * aroundAX + aroundAY * aroundAY + aroundBX * aroundBX + aroundBY * aroundBY;
         const Mask<Real> held = apartX * apartX + apartY * apartY <= kHeld * kHeld * turning;
-        j.bendX = choose<Real>(held, inwardA * j.armAX - inwardB * j.armBX, zero);
-        j.bendY = choose<Real>(held, inwardA * j.armAY - inwardB * j.armBY, zero);
+        j.pushX = rate * j.errorX + choose<Real>(held, inwardA * j.armAX - inwardB * j.armBX, zero);
+        j.pushY = rate * j.errorY + choose<Real>(held, inwardA * j.armAY - inwardB * j.armBY, zero);
+    }
+}
+
+/// `wanted` makes impulses of the points' speeds.
+template <class Real, class Wanted>
+JET_INLINE void holdJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const Wanted& wanted)
+{
+    for (std::size_t g = 0; g < count; ++g) {
+        JointLanes<Real>& j = groups[g];
+        BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
+        Lanes<Real> x = b.velocityX - a.velocityX - b.spin * j.leverBY + a.spin * j.leverAY;
+        Lanes<Real> y = b.velocityY - a.velocityY + b.spin * j.leverBX - a.spin * j.leverAX;
+        wanted(j, x, y);
+        j.impulseX += x, j.impulseY += y;
+        pull<Real>(j, a, b, x, y);
+        scatter(bodies, j.a, a);
+        scatter(bodies, j.b, b);
     }
 }
 
 template <class Real>
-void solveJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const StepConstants<Real>& step,
-                 bool pushes)
+void pushJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const StepConstants<Real>& step)
 {
-    const Lanes<Real> rate = all(pushes ? step.joint.biasRate : Real(0)), bends = all(Real(pushes ? 1 : 0));
-    const Lanes<Real> massScale = all(pushes ? step.joint.massScale : Real(1));
-    const Lanes<Real> impulseScale = all(pushes ? step.joint.impulseScale : Real(0));
-    for (std::size_t g = 0; g < count; ++g) {
-        JointLanes<Real>& j = groups[g];
-        BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
-        const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
-        const Arms<Real> arms(j, moveA, moveB);
-        const Lanes<Real> biasX = rate * j.errorX + bends * j.bendX, biasY = rate * j.errorY + bends * j.bendY;
-        const Lanes<Real> speedX = b.velocityX - a.velocityX - b.spin * arms.by + a.spin * arms.ay + biasX;
-        const Lanes<Real> speedY = b.velocityY - a.velocityY + b.spin * arms.bx - a.spin * arms.ax + biasY;
-        const Lanes<Real> x = -massScale * (j.inverseXX * speedX + j.inverseXY * speedY) - impulseScale * j.impulseX;
-        const Lanes<Real> y = -massScale * (j.inverseXY * speedX + j.inverseYY * speedY) - impulseScale * j.impulseY;
-        j.impulseX += x, j.impulseY += y;
-        arms.pull(a, b, x, y);
-        scatter(bodies, j.a, a);
-        scatter(bodies, j.b, b);
-    }
+    const Lanes<Real> massScale = all(step.joint.massScale), impulseScale = all(step.joint.impulseScale);
+    holdJoints<Real>(bodies, groups, count, [&](const JointLanes<Real>& j, Lanes<Real>& x, Lanes<Real>& y) JET_INLINED {
+        const Lanes<Real> speedX = x + j.pushX, speedY = y + j.pushY;
+        x = -massScale * (j.inverseXX * speedX + j.inverseXY * speedY) - impulseScale * j.impulseX;
+        y = -massScale * (j.inverseXY * speedX + j.inverseYY * speedY) - impulseScale * j.impulseY;
+    });
+}
+
+template <class Real>
+void relaxJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count)
+{
+    holdJoints<Real>(bodies, groups, count, [](const JointLanes<Real>& j, Lanes<Real>& x, Lanes<Real>& y) JET_INLINED {
+        const Lanes<Real> speedX = x, speedY = y;
+        x = -(j.inverseXX * speedX + j.inverseXY * speedY);
+        y = -(j.inverseXY * speedX + j.inverseYY * speedY);
+    });
 }
 
 /// Taylor's, of the angle squared: up to x^13 of the sine over x, and x^14 of the cosine.
@@ -112,7 +201,7 @@ template <class Real>
 void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLanes<Real>* groups, std::size_t count,
                 const StepConstants<Real>& step)
 {
-    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1), half = all(Real(0.5));
+    const Lanes<Real> half = all(Real(0.5));
     constexpr Real kFar = Real(0.05), kWhirl = Real(0.25);
     for (std::size_t g = 0; g < count; ++g) {
         JointLanes<Real>& j = groups[g];
@@ -144,14 +233,6 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
             if (perB[i] != 0) pushes[j.b[i]].warmW += warmB[i];
         }
         j.armAX = ax, j.armAY = ay, j.armBX = bx, j.armBY = by;
-        const Lanes<Real> mass = a.invMass + b.invMass;
-        const Lanes<Real> inertiaA = perA * moveA.perGyration, inertiaB = perB * moveB.perGyration;  // inverse
-        const Lanes<Real> xx = mass + inertiaA * ay * ay + inertiaB * by * by;
-        const Lanes<Real> yy = mass + inertiaA * ax * ax + inertiaB * bx * bx;
-        const Lanes<Real> xy = -inertiaA * ax * ay - inertiaB * bx * by;
-        const Lanes<Real> determinant = xx * yy - xy * xy;
-        const Mask<Real> sound = determinant > zero;
-        const Lanes<Real> inverse = choose<Real>(sound, one / choose<Real>(sound, determinant, one), zero);
-        j.inverseXX = yy * inverse, j.inverseYY = xx * inverse, j.inverseXY = -xy * inverse;
+        weigh<Real>(j, a.invMass, b.invMass);
     }
 }

@@ -450,10 +450,10 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {calmContacts<Real>,        warmContacts<Real>,      warmJoints<Real>,    solveContacts<Real>,
-            relaxContacts<Real>,       approachContacts<Real>,  scaleContacts<Real>, carryContacts<Real>,
-            bounceContacts<Real>,      foreseeJoints<Real>,     solveJoints<Real>,   turnJoints<Real>,
-            integrateVelocities<Real>, integratePositions<Real>};
+    return {calmContacts<Real>,   warmContacts<Real>,     warmJoints<Real>,          solveContacts<Real>,
+            relaxContacts<Real>,  approachContacts<Real>, scaleContacts<Real>,       carryContacts<Real>,
+            bounceContacts<Real>, startJoints<Real>,      foreseeJoints<Real>,       pushJoints<Real>,
+            relaxJoints<Real>,    turnJoints<Real>,       integrateVelocities<Real>, integratePositions<Real>};
 }
 
 }  // namespace

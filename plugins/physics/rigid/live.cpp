@@ -26,6 +26,7 @@ void RigidStage::set(const State& state, Index handle, const BodyCommon& common)
     const bool meetsOthers = meetingsOf(wanted) != meetingsOf(body) || rules != collider_.rulesOf(body);
     if (meetsOthers) forgetContacts(index);
     body = wanted;
+    ++jointsVersion_;
     collider_.setRules(body, rules);
     if (meetsOthers) changed(index);
     collider_.disturb(index);
@@ -45,9 +46,25 @@ void RigidStage::enable(const State& state, Index handle, bool enabled)
     forgetContacts(index);
     RigidBody& body = collider_.bodies()[index];
     body.enabled = enabled;
+    ++jointsVersion_;
     body.moves = state.nodes.invMass[body.node] > 0;
     body.kinematic = state.bodies[handle].kinematic;
     changed(index);
+}
+
+void RigidStage::setMotor(Index index, bool driven, double speed)
+{
+    JointDef& def = joints_[index].def;
+    if (def.driven != driven) ++jointsVersion_;
+    def.driven = driven, def.motorSpeed = speed;
+}
+
+void RigidStage::setTarget(Index index, const Vec2& target)
+{
+    Joint& joint = joints_[index];
+    Vec2& end = joint.a == 0 ? joint.localA : joint.localB;
+    if (joint.hasPoint() && end != target) ++jointsVersion_;
+    end = target;
 }
 
 /// Before the body is changed: the constraints of its contacts are those of what it was.

@@ -163,6 +163,7 @@ void RigidStage::fallAsleep(State& state)
     }
     if (sleepers_ == before) return;
     drowsy_ = true;
+    ++jointsVersion_;
     const auto rests = [&](Index body) { return bodies[body].moves ? bodies[body].asleep : !driven(body, state); };
     const auto& places = collider_.places();
     for (Index i = 0; i < places.size(); ++i) {
@@ -183,6 +184,7 @@ void RigidStage::wakeGroup(State& state, Index group)
         watches_[i].looks = 0;
         --sleepers_;
         woke_ = true;
+        ++jointsVersion_;
     }
 }
 

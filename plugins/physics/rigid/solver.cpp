@@ -38,72 +38,10 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool,
     kernels_ = &kernels<Real>(shape.choice);
     domains_.resize(bodies);
     taken_.resize(bodies, domains_.depth());
-    takenByJoints_.clear();
     if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
-    for (JointColour& colour : jointColours_) colour.joints.clear(), colour.index.clear(), colour.count = 0;
-    for (auto& rows : rows_) rows.clear();
-    for (auto& turning : turning_) turning.clear();
     changes_.clear();
     hardest_ = 0;
     foresees_ = false;
-}
-
-template <class Real>
-void Solver<Real>::addJoint(Joint& joint, Index index, const State& state, const std::vector<RigidBody>& bodies)
-{
-    const JointFrame f = frameOf(joint, state, bodies);
-    const Index slotA = domains_.slotOf(joint.a), slotB = domains_.slotOf(joint.b);
-    const BodyState<Real>&a = states_[slotA], &b = states_[slotB];
-    const bool movesA = a.invMass > 0, movesB = b.invMass > 0;
-    if (!movesA && !movesB) return;
-    const Node node = nodeOf(joint.a, movesA, joint.b, movesB);
-    const std::size_t first = rows_[node].size();
-    addRows(joint, index, f, states_.data(), slotA, slotB, shape_.h, rows_[node]);
-    if (joint.rowsTurn()) turning_[node].emplace_back(joint, index, f, slotA, slotB, first, rows_[node].size() - first);
-    if (!joint.hasPoint()) return;
-    takenByJoints_.resize(bodies.size(), domains_.depth());
-    const std::size_t which = colourOf(joint.a, movesA, joint.b, movesB, takenByJoints_);
-    JointColour& colour = jointColours_[which];
-    constexpr std::size_t lanes = kLanes<Real>;
-    if (isLast(which)) colour.count = groups(colour.count) * lanes;
-    const std::size_t at = colour.count++, lane = at % lanes;
-    if (lane == 0) {
-        colour.joints.emplace_back(JointLanes<Real>{});
-        colour.index.resize(colour.joints.size() * lanes, kNone);
-    }
-    colour.index[at] = index;
-    JointLanes<Real>& g = colour.joints[at / lanes];
-    g.a[lane] = static_cast<std::int32_t>(slotA), g.b[lane] = static_cast<std::int32_t>(slotB);
-    const Vec2 half = 0.5 * (f.pointB - f.pointA);
-    const Real ax = static_cast<Real>(f.armA.x() + half.x()), ay = static_cast<Real>(f.armA.y() + half.y());
-    const Real bx = static_cast<Real>(f.armB.x() - half.x()), by = static_cast<Real>(f.armB.y() - half.y());
-    g.armAX[lane] = ax, g.armAY[lane] = ay, g.armBX[lane] = bx, g.armBY[lane] = by;
-    g.startAX[lane] = static_cast<Real>(f.armA.x()), g.startAY[lane] = static_cast<Real>(f.armA.y());
-    g.startBX[lane] = static_cast<Real>(f.armB.x()), g.startBY[lane] = static_cast<Real>(f.armB.y());
-    g.errorX[lane] = g.startErrorX[lane] = static_cast<Real>(f.pointB.x() - f.pointA.x());
-    g.errorY[lane] = g.startErrorY[lane] = static_cast<Real>(f.pointB.y() - f.pointA.y());
-    const Real inertiaA = a.invMass * a.perGyration * a.perGyration;  // inverse
-    const Real inertiaB = b.invMass * b.perGyration * b.perGyration;
-    const Real xx = a.invMass + b.invMass + inertiaA * ay * ay + inertiaB * by * by;
-    const Real yy = a.invMass + b.invMass + inertiaA * ax * ax + inertiaB * bx * bx;
-    const Real xy = -inertiaA * ax * ay - inertiaB * bx * by;
-    const Real determinant = xx * yy - xy * xy;
-    const Real inverse = determinant > 0 ? 1 / determinant : 0;
-    g.inverseXX[lane] = yy * inverse, g.inverseYY[lane] = xx * inverse, g.inverseXY[lane] = -xy * inverse;
-    g.impulseX[lane] = static_cast<Real>(joint.warm(0, shape_.h));
-    g.impulseY[lane] = static_cast<Real>(joint.warm(1, shape_.h));
-}
-
-/// Subtrees at once, as many as there are threads; then what lies above them.
-template <class Real>
-template <class Work>
-void Solver<Real>::eachNode(Work&& work)
-{
-    int level = 0;
-    while (level < domains_.depth() && 1 << level < pool_->threads()) ++level;
-    const auto nodeAt = [](int of, std::size_t i) { return static_cast<Node>((std::size_t{1} << of) + i); };
-    pool_->run(std::size_t{1} << level, [&](std::size_t i) { domains_.below(nodeAt(level, i), work); });
-    while (level-- > 0) pool_->run(std::size_t{1} << level, [&](std::size_t i) { work(nodeAt(level, i)); });
 }
 
 template <class Real>
@@ -209,7 +147,7 @@ void Solver<Real>::pushNode(Node node)
     for (int again = 0; again < kJointPushPasses; ++again) {
         for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
             JointColour& c = jointColours_[firstColourOf(node) + i];
-            kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, true);
+            kernels_->pushJoints(states, c.joints.data(), c.joints.size(), constants_);
         }
     }
     eachColour(node,
@@ -225,7 +163,7 @@ void Solver<Real>::relaxNode(Node node, int pass, bool last)
     for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, false);
     for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
         JointColour& c = jointColours_[firstColourOf(node) + i];
-        kernels_->solveJoints(states, c.joints.data(), c.joints.size(), constants_, false);
+        kernels_->relaxJoints(states, c.joints.data(), c.joints.size());
     }
     StepConstants<Real> constants = constants_;
     if (last) constants.totalKept = fresh_ ? 0 : 1, constants.totalAdded = 1;
@@ -340,24 +278,7 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
     });
     for (const auto& flips : flips_)
         for (const Flip& flip : flips) noteFlip(collider, flip);
-    for (const JointColour& colour : jointColours_) {
-        for (std::size_t at = 0; at < colour.count; ++at) {
-            if (colour.index[at] == kNone) continue;
-            Joint& joint = joints[colour.index[at]];
-            joint.impulse[0] = static_cast<double>(colour.joints[at / kLanes<Real>].impulseX[at % kLanes<Real>]);
-            joint.impulse[1] = static_cast<double>(colour.joints[at / kLanes<Real>].impulseY[at % kLanes<Real>]);
-            joint.state.force += Vec2(joint.impulse[0], joint.impulse[1]) / shape_.h;
-            joint.substep = shape_.h;
-        }
-    }
-    for (const auto& rows : rows_)
-        for (const JointRow<Real>& row : rows) {
-            Joint& joint = joints[row.joint];
-            joint.impulse[row.slot] = static_cast<double>(row.impulse);
-            joint.substep = shape_.h;
-            joint.state.force += static_cast<double>(row.impulse) / shape_.h * Vec2(row.bx, row.by);
-            if (row.bx == 0 && row.by == 0) joint.state.torque += row.torqueOfB() / shape_.h;
-        }
+    keepRows(joints);
 }
 
 /// Contacts of a group that began or ceased to touch.
@@ -392,7 +313,9 @@ std::size_t Solver<Real>::bytes() const
     for (const Colour& c : colours_)
         sum += c.contacts.capacity() * (sizeof(ContactLanes<Real>) + sizeof(FrictionLanes<Real>)) +
                c.bounces.capacity() * sizeof(BounceLanes<Real>) + c.index.capacity() * sizeof(Index);
-    for (const JointColour& c : jointColours_) sum += c.joints.capacity() * sizeof(JointLanes<Real>);
+    for (const JointColour& c : jointColours_)
+        sum += c.joints.capacity() * sizeof(JointLanes<Real>) + c.anchors.capacity() * sizeof(AnchorLanes<Real>) +
+               c.index.capacity() * sizeof(Index);
     for (const auto& rows : rows_) sum += rows.capacity() * sizeof(JointRow<Real>);
     return sum + domains_.bytes();
 }

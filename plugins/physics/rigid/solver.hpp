@@ -32,7 +32,7 @@ struct TouchChange {
 template <class Real>
 class Solver {
 public:
-    /// Forgets the joints' constraints; bodies are to be set by body() and push().
+    /// Bodies are to be set by body() and push().
     /// The arena is new, and the solver's until the step ends.
     void begin(std::size_t bodies, const StepShape&, Pool&, Arena&);
     /// Is the body, which does not move, where only what moves may be? Then the bodies are to be divided anew.
@@ -59,7 +59,15 @@ public:
 
     /// Updates the contacts that are due, and their constraints. `resolve` false: nothing is pushed.
     void refresh(Collider&, double dt, bool resolve);
-    void addJoint(Joint&, Index index, const State&, const std::vector<RigidBody>&);
+    /// Lays the constraints of joints out, unless they are those of `version` of the joints and their bodies.
+    void layOutJoints(std::vector<Joint>&, const std::vector<RigidBody>&, std::uint64_t version);
+    /// For where their bodies are.
+    void startJoints(const std::vector<Joint>&, const State&, const std::vector<RigidBody>&);
+    /// Between steps: gives the joints the impulses of the last one, where they do not have them yet.
+    void tellJoints(std::vector<Joint>&);
+    /// The same, and forgets them.
+    void releaseJoints(std::vector<Joint>&);
+    void dropJoints();
 
     /// How fast the hardest hit comes, in sizes of the smaller part a second.
     float hardestHit() const { return hardest_; }
@@ -77,7 +85,7 @@ public:
     void relax();
     void bounce();
 
-    /// Gives the joints their impulses, and notes which contacts touch.
+    /// Notes which contacts touch.
     void finish(Collider&, std::vector<Joint>&);
     const std::vector<TouchChange>& changes() const { return changes_; }
 
@@ -119,8 +127,13 @@ private:
     };
     struct JointColour {
         std::vector<JointLanes<Real>> joints;
-        std::vector<Index> index;
+        std::vector<AnchorLanes<Real>> anchors;
+        std::vector<Index> index;  // [lanes] of the joint; kNone
         std::size_t count = 0;
+    };
+    /// A joint that has rows, and the slots of its bodies.
+    struct Rowed {
+        Index joint, a, b;
     };
     /// Groups whose lanes changed in what touches.
     struct Flip {
@@ -235,6 +248,8 @@ private:
         BounceLanes<Real>& r = colour.bounces[group];
         value(r.restitution);
     }
+    void addJoint(const Joint&, Index index);
+    void keepRows(std::vector<Joint>&);
     void noteFlip(Collider&, const Flip&);
     void warmNode(Node);
     void turnNode(Node);
@@ -260,6 +275,11 @@ private:
     std::size_t used_[Domains::kNodes + 1] = {}, usedByJoints_[Domains::kNodes + 1] = {};  // [nodes] colours
     std::vector<JointRow<Real>> rows_[Domains::kNodes + 1], made_[Domains::kNodes + 1];
     std::vector<TurningRows<Real>> turning_[Domains::kNodes + 1];
+    std::vector<Rowed> rowed_[Domains::kNodes + 1];
+    std::uint64_t jointsVersion_ = 0;  // that they are laid out for; 0: none
+    double jointsH_ = 0;               // seconds: their impulses are of substeps of this
+    bool anyPoint_ = false;            // has any joint a point?
+    bool jointsTold_ = true;           // have the joints got the impulses of the last step?
     std::vector<Flip> flips_[Domains::kNodes + 1];
     std::span<float> drifts_;  // [slots] of the collider, in the arena
     Pool* pool_ = nullptr;
@@ -272,6 +292,18 @@ private:
     bool bounces_ = false;  // does any contact have restitution?
     bool fresh_ = true;     // is the step's first substep to come?
 };
+
+/// Subtrees at once, as many as there are threads; then what lies above them.
+template <class Real>
+template <class Work>
+void Solver<Real>::eachNode(Work&& work)
+{
+    int level = 0;
+    while (level < domains_.depth() && 1 << level < pool_->threads()) ++level;
+    const auto nodeAt = [](int of, std::size_t i) { return static_cast<Node>((std::size_t{1} << of) + i); };
+    pool_->run(std::size_t{1} << level, [&](std::size_t i) { domains_.below(nodeAt(level, i), work); });
+    while (level-- > 0) pool_->run(std::size_t{1} << level, [&](std::size_t i) { work(nodeAt(level, i)); });
+}
 
 extern template class Solver<float>;
 extern template class Solver<double>;

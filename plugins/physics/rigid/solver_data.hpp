@@ -81,13 +81,27 @@ struct alignas(32) BounceLanes {
 template <class Real>
 struct alignas(32) JointLanes {
     std::int32_t a[kLanes<Real>], b[kLanes<Real>];
-    Lanes<Real> armAX, armAY, armBX, armBY;  // from the centres
-    Lanes<Real> errorX, errorY;
+    Lanes<Real> leverAX, leverAY, leverBX, leverBY;  // the arms in radii of gyration
+    Lanes<Real> pushX, pushY;  // units / s that a push asks for: by the error, and the arms' turning on
     Lanes<Real> inverseXX, inverseXY, inverseYY;
     Lanes<Real> impulseX, impulseY;
-    Lanes<Real> bendX, bendY;  // units / s that the arms' turning on adds in a substep
-    // Read by turnJoints() only: at the start of the step.
-    Lanes<Real> startAX, startAY, startBX, startBY, startErrorX, startErrorY;
+    // Read once a substep.
+    Lanes<Real> armAX, armAY, armBX, armBY;  // from the centres
+    Lanes<Real> errorX, errorY;
+    Lanes<Real> perGyrationA, perGyrationB;
+    Lanes<Real> startAX, startAY, startBX, startBY, startErrorX, startErrorY;  // at the start of the step
+};
+
+/// Where the points of a group of joints lie in their bodies, from the centres; of the background: where they are.
+template <class Real>
+struct alignas(32) AnchorLanes {
+    static constexpr int kFours = kLanes<Real> / 4;
+    Lanes<double> ax[kFours], ay[kFours], bx[kFours], by[kFours];
+};
+
+/// Where a body is at the start of a step, and how it is turned.
+struct alignas(32) BodyPlace {
+    double x = 0, y = 0, cosine = 1, sine = 0;
 };
 
 /// A damped spring of some frequency, integrated implicitly over h, as a bias rate and two scales of the impulse.
@@ -124,9 +138,15 @@ struct Kernels {
     void (*carryContacts)(ContactLanes<Real>*, const FrictionLanes<Real>*, std::uint32_t* bits, std::size_t);
     void (*bounceContacts)(BodyState<Real>*, ContactLanes<Real>*, FrictionLanes<Real>*, const BounceLanes<Real>*,
                            std::size_t, const StepConstants<Real>&);
+    /// Makes the joints for where the bodies are at the start of a step.
+    void (*startJoints)(const BodyState<Real>*, const BodyPlace*, JointLanes<Real>*, const AnchorLanes<Real>*,
+                        std::size_t);
     /// Looks where the arms turn in a substep.
     void (*foreseeJoints)(const BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&);
-    void (*solveJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&, bool push);
+    /// Pushes errors out.
+    void (*pushJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&);
+    /// Takes the pushing velocity back out.
+    void (*relaxJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t);
     /// Turns the arms to where the bodies are now; what the accumulated impulses warm follows.
     void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t,
                        const StepConstants<Real>&);

@@ -103,6 +103,7 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
         joint.length = (def.b.point - def.a.point).norm();
     }
     joints_.push_back(joint);
+    ++jointsVersion_;
     if (joint.keepsApart()) decideMeeting(joint);
     return static_cast<Index>(joints_.size() - 1);
 }
@@ -110,6 +111,7 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
 void RigidStage::setJoint(const State& state, Index index, const JointDef& def)
 {
     Joint& joint = joints_[index];
+    ++jointsVersion_;
     const JointDef old = joint.def;
     joint.def = def;
     joint.def.kind = old.kind, joint.def.a = old.a, joint.def.b = old.b;
@@ -132,6 +134,7 @@ void RigidStage::forgetPairs()
 void RigidStage::removeJoint(Index index)
 {
     Joint& joint = joints_[index];
+    ++jointsVersion_;
     joint.removed = true;
     decideMeeting(joint);
 }
@@ -141,8 +144,8 @@ void RigidStage::activate(bool singles)
 {
     const Active wanted = singles ? Active::Single : Active::Double;
     if (active_ == wanted) return;
-    if (active_ == Active::Single) single_.release(collider_);
-    if (active_ == Active::Double) double_.release(collider_);
+    if (active_ == Active::Single) single_.release(collider_), single_.releaseJoints(joints_);
+    if (active_ == Active::Double) double_.release(collider_), double_.releaseJoints(joints_);
     active_ = wanted;
 }
 
@@ -217,14 +220,16 @@ void RigidStage::load(Solver<Real>& solver, const State& state)
 }
 
 template <class Real>
-void RigidStage::addJoints(Solver<Real>& solver, const State& state)
+void RigidStage::startJoints(Solver<Real>& solver, const State& state)
 {
-    const auto& bodies = collider_.bodies();
-    for (Index i = 0; i < joints_.size(); ++i) {
-        if (!bodies[joints_[i].a].takesPart() || !bodies[joints_[i].b].takesPart()) continue;
-        joints_[i].state.force = Vec2(0, 0), joints_[i].state.torque = 0;
-        if (joints_[i].lives()) solver.addJoint(joints_[i], i, state, collider_.bodies());
-    }
+    solver.layOutJoints(joints_, collider_.bodies(), jointsVersion_);
+    solver.startJoints(joints_, state, collider_.bodies());
+}
+
+void RigidStage::tellJoints()
+{
+    if (active_ == Active::Single) single_.tellJoints(joints_);
+    if (active_ == Active::Double) double_.tellJoints(joints_);
 }
 
 void RigidStage::step(State& state, const WorldSettings& settings, double dt, StepStats& stats)
@@ -269,7 +274,7 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         force.accelerationW = static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
         force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
     });
-    addJoints(solver, state);
+    startJoints(solver, state);
     solver.prepare(passesFor(solver.hardestHit(), large, shape.h));
     solver.run();
     solver.finish(collider_, joints_);
@@ -346,7 +351,7 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
     }
     look(double_, state, settings, dt, stats);
     double_.pushBodies([](Index, BodyPush<double>& push) { push = BodyPush<double>(); });
-    addJoints(double_, state);
+    startJoints(double_, state);
     double_.prepare(passesFor(double_.hardestHit(), false, h));
 }
 
@@ -406,9 +411,17 @@ void RigidStage::finish(State& state, bool bounce)
 
 void RigidStage::breakJoints()
 {
+    const auto mayBreak = [](const Joint& joint) { return joint.lives() && joint.def.breakForce > 0; };
+    if (brittleVersion_ != jointsVersion_) {
+        brittleVersion_ = jointsVersion_;
+        brittle_ = std::any_of(joints_.begin(), joints_.end(), mayBreak);
+    }
+    if (!brittle_) return;
+    tellJoints();
     for (Joint& joint : joints_)
-        if (joint.lives() && joint.def.breakForce > 0 && joint.state.force.norm() > joint.def.breakForce) {
+        if (mayBreak(joint) && joint.state.force.norm() > joint.def.breakForce) {
             joint.broken = true;
+            ++jointsVersion_;
             decideMeeting(joint);
         }
 }

@@ -30,12 +30,20 @@ public:
     bool empty() const { return count() == 0; }
 
     Index addJoint(const State&, const JointDef&);
-    Joint& joint(Index index) { return joints_[index]; }
     const Joint& joint(Index index) const { return joints_[index]; }
+    /// Of the last step.
+    const JointState& stateOf(Index joint)
+    {
+        tellJoints();
+        return joints_[joint].state;
+    }
     Index jointCount() const { return static_cast<Index>(joints_.size()); }
     void removeJoint(Index);
     /// All but the kind and the anchors.
     void setJoint(const State&, Index, const JointDef&);
+    void setMotor(Index joint, bool driven, double speed);
+    /// Where it is held on the background.
+    void setTarget(Index joint, const Vec2&);
     /// They are sought afresh, and their impulses are forgotten.
     void forgetPairs();
 
@@ -98,6 +106,11 @@ public:
         with(active_);
         if (active_ == Active::Single) single_.archive(with, collider_);
         if (active_ == Active::Double) double_.archive(with, collider_);
+        if constexpr (std::is_same_v<Archive, RestoreArchive>) {
+            single_.dropJoints(), double_.dropJoints();
+        } else {
+            tellJoints();
+        }
         for (Joint& joint : joints_) {
             with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.substep);
             with(joint.localA), with(joint.localB), with(joint.localAxis), with(joint.length);
@@ -116,6 +129,7 @@ public:
         if (active_ != Active::Single) single_ = {};  // it was not in the state, and knows contacts of another one
         if (active_ != Active::Double) double_ = {};
         countMovers();
+        ++jointsVersion_;
     }
 
 private:
@@ -125,7 +139,8 @@ private:
     template <class Real>
     void load(Solver<Real>&, const State&);
     template <class Real>
-    void addJoints(Solver<Real>&, const State&);
+    void startJoints(Solver<Real>&, const State&);
+    void tellJoints();
     template <class Real>
     void look(Solver<Real>&, State&, const WorldSettings&, double dt, StepStats&);
     template <class Real>
@@ -165,6 +180,9 @@ private:
     bool resolving_ = true;
     std::vector<Index> bodyOf_;  // [handles] 0: not here
     std::vector<Joint> joints_;
+    std::uint64_t jointsVersion_ = 1;   // counts changes of what the solver knows of joints
+    std::uint64_t brittleVersion_ = 0;  // that `brittle_` is of
+    bool brittle_ = false;              // may any of them break?
     Solver<float> single_;
     Solver<double> double_;
     std::vector<ContactEvent> events_;
