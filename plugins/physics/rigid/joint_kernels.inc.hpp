@@ -2,7 +2,7 @@
 
 /// Gives the bodies of a group an impulse, and its opposite.
 template <class Real>
-JET_INLINE void pull(const JointLanes<Real>& j, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x,
+JET_INLINE void pull(const Joints<Real>& j, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x,
                      const Lanes<Real>& y)
 {
     a.velocityX -= a.invMass * x, a.velocityY -= a.invMass * y;
@@ -15,7 +15,7 @@ template <class Real>
 void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::size_t count)
 {
     for (std::size_t g = 0; g < count; ++g) {
-        const JointLanes<Real>& j = groups[g];
+        const Joints<Real>& j = view(groups[g]);
         BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         pull<Real>(j, a, b, j.impulseX, j.impulseY);
         scatter(bodies, j.a, a);
@@ -25,7 +25,7 @@ void warmJoints(BodyState<Real>* bodies, const JointLanes<Real>* groups, std::si
 
 /// Makes levers and masses of the arms.
 template <class Real>
-JET_INLINE void weigh(JointLanes<Real>& j, const Lanes<Real>& invMassA, const Lanes<Real>& invMassB)
+JET_INLINE void weigh(Joints<Real>& j, const Lanes<Real>& invMassA, const Lanes<Real>& invMassB)
 {
     const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
     const Lanes<Real> ax = j.armAX, ay = j.armAY, bx = j.armBX, by = j.armBY;
@@ -43,22 +43,8 @@ JET_INLINE void weigh(JointLanes<Real>& j, const Lanes<Real>& invMassA, const La
     j.inverseXX = yy * inverse, j.inverseYY = xx * inverse, j.inverseXY = -xy * inverse;
 }
 
-typedef double PlaceRow __attribute__((vector_size(32), may_alias));
-
-/// Four values of each of four places, those of a kind together.
-JET_INLINE void gatherPlaces(const BodyPlace* places, const std::int32_t* index, Lanes<double> (&out)[4])
-{
-    const auto row = [&](int i) { return *reinterpret_cast<const PlaceRow*>(&places[index[i]]); };
-    const Lanes<double> c0 = row(0), c1 = row(1), c2 = row(2), c3 = row(3);
-    const Lanes<double> t0 = __builtin_shufflevector(c0, c1, 0, 4, 2, 6),
-                        t1 = __builtin_shufflevector(c0, c1, 1, 5, 3, 7);
-    const Lanes<double> t2 = __builtin_shufflevector(c2, c3, 0, 4, 2, 6),
-                        t3 = __builtin_shufflevector(c2, c3, 1, 5, 3, 7);
-    out[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5), out[1] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
-    out[2] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7), out[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
-}
-
-/// Arms of four joints, and where they end. On the background (body 0) there is no arm, and the anchor is the place.
+/// Arms of four joints, and where they end. On the background, which is not turned anyhow, there is no arm, and the
+/// anchor is the place.
 struct Ends {
     Lanes<double> armX, armY, x, y;
 
@@ -66,32 +52,23 @@ struct Ends {
                     const Lanes<double>& anchorY)
     {
         const Lanes<double> zero = all<double>(0);
-        const Mask<double> ground = {-(index[0] == 0), -(index[1] == 0), -(index[2] == 0), -(index[3] == 0)};
-        Lanes<double> place[4];
-        gatherPlaces(places, index, place);
-        const Lanes<double> turnedX = place[2] * anchorX - place[3] * anchorY;
-        const Lanes<double> turnedY = place[3] * anchorX + place[2] * anchorY;
-        armX = choose<double>(ground, zero, turnedX), armY = choose<double>(ground, zero, turnedY);
-        x = place[0] + choose<double>(ground, anchorX, turnedX);
-        y = place[1] + choose<double>(ground, anchorY, turnedY);
+        Lanes<double> placeX, placeY, cosine, sine;
+        gatherRows([&](int i) JET_INLINED { return &places[index[i]].x; }, placeX, placeY, cosine, sine);
+        const Mask<double> ground = (cosine == zero) & (sine == zero);
+        armX = cosine * anchorX - sine * anchorY, armY = sine * anchorX + cosine * anchorY;
+        x = placeX + choose<double>(ground, anchorX, armX), y = placeY + choose<double>(ground, anchorY, armY);
     }
 };
-
-JET_INLINE void putFour(Lanes<double>& to, int, const Lanes<double>& values) { to = values; }
-JET_INLINE void putFour(Lanes<float>& to, int four, const Lanes<double>& values)
-{
-    reinterpret_cast<Four*>(&to)[four] = __builtin_convertvector(values, Four);
-}
 
 template <class Real>
 void startJoints(const BodyState<Real>* bodies, const BodyPlace* places, JointLanes<Real>* groups,
                  const AnchorLanes<Real>* anchors, std::size_t count)
 {
     for (std::size_t g = 0; g < count; ++g) {
-        JointLanes<Real>& j = groups[g];
-        for (int i = 0; i < AnchorLanes<Real>::kFours; ++i) {
-            const Ends a(places, j.a + 4 * i, anchors[g].ax[i], anchors[g].ay[i]);
-            const Ends b(places, j.b + 4 * i, anchors[g].bx[i], anchors[g].by[i]);
+        Joints<Real>& j = view(groups[g]);
+        const Anchors<Real>& at = view(anchors[g]);
+        for (int i = 0; i < Anchors<Real>::kFours; ++i) {
+            const Ends a(places, j.a + 4 * i, at.ax[i], at.ay[i]), b(places, j.b + 4 * i, at.bx[i], at.by[i]);
             const Lanes<double> errorX = b.x - a.x, errorY = b.y - a.y;
             putFour(j.startAX, i, a.armX), putFour(j.startAY, i, a.armY);
             putFour(j.startBX, i, b.armX), putFour(j.startBY, i, b.armY);
@@ -114,7 +91,7 @@ void foreseeJoints(const BodyState<Real>* bodies, JointLanes<Real>* groups, std:
     const Lanes<Real> rate = all(step.joint.biasRate);
     constexpr Real kHeld = Real(0.1);
     for (std::size_t g = 0; g < count; ++g) {
-        JointLanes<Real>& j = groups[g];
+        Joints<Real>& j = view(groups[g]);
         const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         const Lanes<Real> omegaA = j.perGyrationA * a.spin, omegaB = j.perGyrationB * b.spin;
         const Lanes<Real> inwardA = least(half * omegaA * omegaA, most);
@@ -136,7 +113,7 @@ template <class Real, class Wanted>
 JET_INLINE void holdJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const Wanted& wanted)
 {
     for (std::size_t g = 0; g < count; ++g) {
-        JointLanes<Real>& j = groups[g];
+        Joints<Real>& j = view(groups[g]);
         BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         Lanes<Real> x = b.velocityX - a.velocityX - b.spin * j.leverBY + a.spin * j.leverAY;
         Lanes<Real> y = b.velocityY - a.velocityY + b.spin * j.leverBX - a.spin * j.leverAX;
@@ -152,7 +129,7 @@ template <class Real>
 void pushJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count, const StepConstants<Real>& step)
 {
     const Lanes<Real> massScale = all(step.joint.massScale), impulseScale = all(step.joint.impulseScale);
-    holdJoints<Real>(bodies, groups, count, [&](const JointLanes<Real>& j, Lanes<Real>& x, Lanes<Real>& y) JET_INLINED {
+    holdJoints<Real>(bodies, groups, count, [&](const Joints<Real>& j, Lanes<Real>& x, Lanes<Real>& y) JET_INLINED {
         const Lanes<Real> speedX = x + j.pushX, speedY = y + j.pushY;
         x = -massScale * (j.inverseXX * speedX + j.inverseXY * speedY) - impulseScale * j.impulseX;
         y = -massScale * (j.inverseXY * speedX + j.inverseYY * speedY) - impulseScale * j.impulseY;
@@ -162,7 +139,7 @@ void pushJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t c
 template <class Real>
 void relaxJoints(BodyState<Real>* bodies, JointLanes<Real>* groups, std::size_t count)
 {
-    holdJoints<Real>(bodies, groups, count, [](const JointLanes<Real>& j, Lanes<Real>& x, Lanes<Real>& y) JET_INLINED {
+    holdJoints<Real>(bodies, groups, count, [](const Joints<Real>& j, Lanes<Real>& x, Lanes<Real>& y) JET_INLINED {
         const Lanes<Real> speedX = x, speedY = y;
         x = -(j.inverseXX * speedX + j.inverseXY * speedY);
         y = -(j.inverseXY * speedX + j.inverseYY * speedY);
@@ -204,7 +181,7 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
     const Lanes<Real> half = all(Real(0.5));
     constexpr Real kFar = Real(0.05), kWhirl = Real(0.25);
     for (std::size_t g = 0; g < count; ++g) {
-        JointLanes<Real>& j = groups[g];
+        Joints<Real>& j = view(groups[g]);
         const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
         const MoveLanes<Real> moveA = moves(bodies, j.a), moveB = moves(bodies, j.b);
         Lanes<Real> c, s;

@@ -1,38 +1,36 @@
 // The solver's kernels, compiled once for each instruction set: kernels_sse2.cpp and kernels_avx2.cpp include this in a
 // namespace of their own. "Soft Step" (Catto 2024, https://box2d.org/posts/2024/02/solver2d/): see solver_data.hpp.
 
+#if defined(__AVX2__)
+#include "whole_lanes.inc.hpp"
+#else
+#include "half_lanes.inc.hpp"
+#endif
+
 namespace {
 
+// Groups as these lanes see them.
 template <class Real>
-using Mask = typename LaneTypes<Real>::Mask;
+using Contacts = ContactLanes<Real, Lanes>;
+template <class Real>
+using Frictions = FrictionLanes<Real, Lanes>;
+template <class Real>
+using Bounces = BounceLanes<Real, Lanes>;
+template <class Real>
+using Joints = JointLanes<Real, Lanes>;
+template <class Real>
+using Anchors = AnchorLanes<Real, Lanes>;
 
-template <class Real>
-JET_INLINE Lanes<Real> all(Real value)
+template <template <class, template <class> class> class Group, class Real>
+JET_INLINE Group<Real, Lanes>& view(Group<Real, physics::Lanes>& group)
 {
-    return Lanes<Real>{} + value;
+    static_assert(sizeof(Group<Real, Lanes>) == sizeof group);
+    return *static_cast<Group<Real, Lanes>*>(static_cast<void*>(&group));
 }
-template <class Real>
-JET_INLINE Lanes<Real> choose(const Mask<Real>& mask, const Lanes<Real>& yes, const Lanes<Real>& no)
+template <template <class, template <class> class> class Group, class Real>
+JET_INLINE const Group<Real, Lanes>& view(const Group<Real, physics::Lanes>& group)
 {
-    return (Lanes<Real>)((mask & (Mask<Real>)yes) | (~mask & (Mask<Real>)no));
-}
-/// A bit for each lane that is set.
-template <class Real>
-JET_INLINE std::uint32_t bitsOf(const Mask<Real>& mask)
-{
-    std::uint32_t bits = 0;
-    for (int i = 0; i < kLanes<Real>; ++i) bits |= static_cast<std::uint32_t>(mask[i] & 1) << i;
-    return bits;
-}
-template <class Values>
-JET_INLINE Values least(const Values& a, const Values& b)
-{
-    return a < b ? a : b;
-}
-template <class Values>
-JET_INLINE Values most(const Values& a, const Values& b)
-{
-    return a > b ? a : b;
+    return *static_cast<const Group<Real, Lanes>*>(static_cast<const void*>(&group));
 }
 
 template <class Real>
@@ -51,130 +49,33 @@ struct MoveLanes {
     Lanes<Real> moveX, moveY, sweep, perGyration;
 };
 
-typedef float Four __attribute__((vector_size(16), may_alias));
-
-/// Rows of four values of eight bodies to four rows of eight: within the halves of a register, as AVX2 shuffles best.
-JET_INLINE void transpose(const Lanes<float> (&c)[4], Lanes<float>& x, Lanes<float>& y, Lanes<float>& z,
-                          Lanes<float>& w)
-{
-    const Lanes<float> t0 = __builtin_shufflevector(c[0], c[1], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes<float> t1 = __builtin_shufflevector(c[0], c[1], 2, 10, 3, 11, 6, 14, 7, 15);
-    const Lanes<float> t2 = __builtin_shufflevector(c[2], c[3], 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes<float> t3 = __builtin_shufflevector(c[2], c[3], 2, 10, 3, 11, 6, 14, 7, 15);
-    x = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
-    y = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
-    z = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
-    w = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
-}
-
-#if defined(__AVX2__)
-JET_INLINE void gather(const BodyState<float>* bodies, const std::int32_t* index, std::size_t half, Lanes<float>& x,
-                       Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
-{
-    Lanes<float> c[4];
-    for (int i = 0; i < 4; ++i) {
-        const Four low = reinterpret_cast<const Four*>(&bodies[index[i]])[half];
-        const Four high = reinterpret_cast<const Four*>(&bodies[index[i + 4]])[half];
-        c[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-    }
-    transpose(c, x, y, z, w);
-}
-
-JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, const BodyLanes<float>& s)
-{
-    const Lanes<float> t0 = __builtin_shufflevector(s.velocityX, s.velocityY, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes<float> t1 = __builtin_shufflevector(s.velocityX, s.velocityY, 2, 10, 3, 11, 6, 14, 7, 15);
-    const Lanes<float> t2 = __builtin_shufflevector(s.spin, s.invMass, 0, 8, 1, 9, 4, 12, 5, 13);
-    const Lanes<float> t3 = __builtin_shufflevector(s.spin, s.invMass, 2, 10, 3, 11, 6, 14, 7, 15);
-    const Lanes<float> c[4] = {__builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13),
-                               __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15),
-                               __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13),
-                               __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15)};
-    // What never moves may be in many groups, of other threads, too.
-    const int moving = __builtin_ia32_movmskps256((Lanes<float>)(s.invMass != Lanes<float>{}));
-    for (int i = 0; i < 4; ++i) {
-        if (moving == 0xff || (moving >> i & 1) != 0)
-            *reinterpret_cast<Four*>(&bodies[index[i]]) = __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3);
-        if (moving == 0xff || (moving >> (i + 4) & 1) != 0)
-            *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
-    }
-}
-
-#else
-/// Without registers of eight, shuffles of eight are taken apart value by value; these stay within fours.
-JET_INLINE void transpose(const Four& a, const Four& b, const Four& c, const Four& d, Four (&out)[4])
-{
-    const Four t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5), t1 = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-    const Four t2 = __builtin_shufflevector(c, d, 0, 4, 1, 5), t3 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    out[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5), out[1] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
-    out[2] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5), out[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
-}
-
-JET_INLINE void gather(const BodyState<float>* bodies, const std::int32_t* index, std::size_t half, Lanes<float>& x,
-                       Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
-{
-    Lanes<float>* const rows[4] = {&x, &y, &z, &w};
-    for (int side = 0; side < 2; ++side) {
-        const auto of = [&](int i) { return reinterpret_cast<const Four*>(&bodies[index[4 * side + i]])[half]; };
-        Four out[4];
-        transpose(of(0), of(1), of(2), of(3), out);
-        for (int row = 0; row < 4; ++row) reinterpret_cast<Four*>(rows[row])[side] = out[row];
-    }
-}
-
-JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, const BodyLanes<float>& s)
-{
-    for (int side = 0; side < 2; ++side) {
-        const auto of = [&](const Lanes<float>& row) { return reinterpret_cast<const Four*>(&row)[side]; };
-        Four out[4];
-        transpose(of(s.velocityX), of(s.velocityY), of(s.spin), of(s.invMass), out);
-        for (int i = 0; i < 4; ++i) {
-            BodyState<float>& body = bodies[index[4 * side + i]];
-            if (body.invMass != 0) *reinterpret_cast<Four*>(&body) = out[i];
-        }
-    }
-}
-#endif
-
-JET_INLINE void gather(const BodyState<double>* bodies, const std::int32_t* index, std::size_t half, Lanes<double>& x,
-                       Lanes<double>& y, Lanes<double>& z, Lanes<double>& w)
-{
-    const Lanes<double> c0 = reinterpret_cast<const Lanes<double>*>(&bodies[index[0]])[half];
-    const Lanes<double> c1 = reinterpret_cast<const Lanes<double>*>(&bodies[index[1]])[half];
-    const Lanes<double> c2 = reinterpret_cast<const Lanes<double>*>(&bodies[index[2]])[half];
-    const Lanes<double> c3 = reinterpret_cast<const Lanes<double>*>(&bodies[index[3]])[half];
-    const Lanes<double> t0 = __builtin_shufflevector(c0, c1, 0, 4, 2, 6),
-                        t1 = __builtin_shufflevector(c0, c1, 1, 5, 3, 7);
-    const Lanes<double> t2 = __builtin_shufflevector(c2, c3, 0, 4, 2, 6),
-                        t3 = __builtin_shufflevector(c2, c3, 1, 5, 3, 7);
-    x = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
-    y = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
-    z = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
-    w = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
-}
-
-JET_INLINE void scatter(BodyState<double>* bodies, const std::int32_t* index, const BodyLanes<double>& s)
-{
-    for (int i = 0; i < 4; ++i) {
-        BodyState<double>& body = bodies[index[i]];
-        if (body.invMass == 0) continue;
-        body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.spin = s.spin[i];
-    }
-}
-
 template <class Real>
 JET_INLINE BodyLanes<Real> velocities(const BodyState<Real>* bodies, const std::int32_t* index)
 {
     BodyLanes<Real> s;
-    gather(bodies, index, 0, s.velocityX, s.velocityY, s.spin, s.invMass);
+    gatherRows([&](int i) JET_INLINED { return &bodies[index[i]].velocityX; }, s.velocityX, s.velocityY, s.spin,
+               s.invMass);
     return s;
 }
 template <class Real>
 JET_INLINE MoveLanes<Real> moves(const BodyState<Real>* bodies, const std::int32_t* index)
 {
     MoveLanes<Real> s;
-    gather(bodies, index, 1, s.moveX, s.moveY, s.sweep, s.perGyration);
+    gatherRows([&](int i) JET_INLINED { return &bodies[index[i]].moveX; }, s.moveX, s.moveY, s.sweep, s.perGyration);
     return s;
+}
+
+JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, const BodyLanes<float>& s)
+{
+    scatterRows(bodies, index, s.velocityX, s.velocityY, s.spin, s.invMass);
+}
+JET_INLINE void scatter(BodyState<double>* bodies, const std::int32_t* index, const BodyLanes<double>& s)
+{
+    for (int i = 0; i < kLanes<double>; ++i) {
+        BodyState<double>& body = bodies[index[i]];
+        if (body.invMass == 0) continue;
+        body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.spin = s.spin[i];
+    }
 }
 
 /// An impulse along a direction with its levers; on B, and against it on A.
@@ -199,8 +100,8 @@ void warmContacts(BodyState<Real>* bodies, const ContactLanes<Real>* groups, con
                   std::size_t count)
 {
     for (std::size_t g = 0; g < count; ++g) {
-        const ContactLanes<Real>& c = groups[g];
-        const FrictionLanes<Real>& f = frictions[g];
+        const Contacts<Real>& c = view(groups[g]);
+        const Frictions<Real>& f = view(frictions[g]);
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         for (int k = 0; k < 2; ++k) {
             const auto& p = c.points[k];
@@ -248,8 +149,8 @@ struct Pair {
 
 /// Gives the points what `wanted` says of a point and its speed, but never pulls; the sum of the changes.
 template <class Real, class Wanted>
-JET_INLINE Lanes<Real> pushNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
-                                   const Lanes<Real>& linear, const Lanes<Real>& zero, const Wanted& wanted)
+JET_INLINE Lanes<Real> pushNormals(Contacts<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& linear,
+                                   const Lanes<Real>& zero, const Wanted& wanted)
 {
     const Pair<Real> pair(a, b, c.points);
     const auto give = [&](auto& p, const Lanes<Real>& speed) JET_INLINED {
@@ -264,7 +165,7 @@ JET_INLINE Lanes<Real> pushNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, Bo
 }
 
 template <class Real>
-JET_INLINE Lanes<Real> relaxNormals(ContactLanes<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
+JET_INLINE Lanes<Real> relaxNormals(Contacts<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
                                     const Lanes<Real>& linear, const Lanes<Real>& zero, const StepConstants<Real>& step)
 {
     return pushNormals<Real>(c, a, b, linear, zero, [&](const auto& p, const Lanes<Real>& speed) JET_INLINED {
@@ -285,7 +186,7 @@ void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::siz
 {
     const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
     for (std::size_t g = 0; g < count; ++g) {
-        ContactLanes<Real>& c = groups[g];
+        Contacts<Real>& c = view(groups[g]);
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const Mask<Real> still = (a.invMass == zero) | (b.invMass == zero);
         const Lanes<Real> rate = choose<Real>(still, all(step.still.biasRate), all(step.moving.biasRate));
@@ -313,7 +214,7 @@ void calmContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size
 {
     const Lanes<Real> zero = all<Real>(0);
     for (std::size_t g = 0; g < count; ++g) {
-        ContactLanes<Real>& c = groups[g];
+        Contacts<Real>& c = view(groups[g]);
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
@@ -332,8 +233,8 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
 {
     const Lanes<Real> zero = all<Real>(0);
     for (std::size_t g = 0; g < count; ++g) {
-        ContactLanes<Real>& c = groups[g];
-        FrictionLanes<Real>& f = frictions[g];
+        Contacts<Real>& c = view(groups[g]);
+        Frictions<Real>& f = view(frictions[g]);
         BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const Lanes<Real> towardsX = b.velocityX - a.velocityX, towardsY = b.velocityY - a.velocityY;
         // The tangent is the normal turned to the left. Friction does not change speeds of centres along the normal.
@@ -364,11 +265,11 @@ void approachContacts(const BodyState<Real>* bodies, const ContactLanes<Real>* g
                       std::size_t count)
 {
     for (std::size_t g = 0; g < count; ++g) {
-        const ContactLanes<Real>& c = groups[g];
+        const Contacts<Real>& c = view(groups[g]);
         const BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         for (int k = 0; k < 2; ++k) {
             const auto& p = c.points[k];
-            bounces[g].approach[k] = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
+            view(bounces[g]).approach[k] = speedAlong<Real>(a, b, c.normalX, c.normalY, p.leverA, p.leverB);
         }
     }
 }
@@ -377,7 +278,7 @@ template <class Real>
 void scaleContacts(ContactLanes<Real>* groups, FrictionLanes<Real>* frictions, std::size_t count, Real by)
 {
     for (std::size_t g = 0; g < count; ++g)
-        for (int k = 0; k < 2; ++k) groups[g].points[k].impulse *= by, frictions[g].points[k].impulse *= by;
+        for (int k = 0; k < 2; ++k) view(groups[g]).points[k].impulse *= by, view(frictions[g]).points[k].impulse *= by;
 }
 
 template <class Real>
@@ -386,8 +287,9 @@ void carryContacts(ContactLanes<Real>* groups, const FrictionLanes<Real>* fricti
 {
     const Lanes<Real> zero = all<Real>(0);
     for (std::size_t g = 0; g < count; ++g) {
-        for (auto& p : groups[g].points) p.separation = p.now;
-        bits[g] = bitsOf<Real>(most(frictions[g].points[0].total, frictions[g].points[1].total) > zero);
+        const Frictions<Real>& f = view(frictions[g]);
+        for (auto& p : view(groups[g]).points) p.separation = p.now;
+        bits[g] = bitsOf<Real>(most(f.points[0].total, f.points[1].total) > zero);
     }
 }
 
@@ -400,9 +302,9 @@ void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Frictio
 {
     const Lanes<Real> zero = all<Real>(0);
     for (std::size_t g = 0; g < count; ++g) {
-        ContactLanes<Real>& c = groups[g];
-        FrictionLanes<Real>& f = frictions[g];
-        const BounceLanes<Real>& r = bounces[g];
+        Contacts<Real>& c = view(groups[g]);
+        Frictions<Real>& f = view(frictions[g]);
+        const Bounces<Real>& r = view(bounces[g]);
         Mask<Real> bouncing[2];
         for (int k = 0; k < 2; ++k)
             bouncing[k] = (r.restitution > zero) & (r.approach[k] < -step.restSpeed) & (f.points[k].total > zero);

@@ -44,64 +44,66 @@ struct BodyPush {
     Real beforeX = 0, beforeY = 0, beforeW = 0;  // velocity after warm starting
 };
 
-template <class Real>
+// Groups of lanes. Kernels for processors without registers of 32 bytes see them as L of their own (half_lanes.inc.hpp).
+
+template <class Real, template <class> class L = Lanes>
 struct alignas(32) ContactLanes {
     std::int32_t a[kLanes<Real>], b[kLanes<Real>];  // bodies; 0: never moves
-    Lanes<Real> normalX, normalY;                   // from A to B
-    Lanes<Real> mostPush;                           // units / s that overlap is pushed out with at most
+    L<Real> normalX, normalY;                       // from A to B
+    L<Real> mostPush;                               // units / s that overlap is pushed out with at most
     struct Point {
-        Lanes<Real> leverA, leverB;  // r × n, in radii of gyration
-        Lanes<Real> separation;      // at the start of the step, plus slop
-        Lanes<Real> now;             // the same after the last move
-        Lanes<Real> mass;            // 0: no such point
-        Lanes<Real> impulse;         // accumulated, of a substep
+        L<Real> leverA, leverB;  // r × n, in radii of gyration
+        L<Real> separation;      // at the start of the step, plus slop
+        L<Real> now;             // the same after the last move
+        L<Real> mass;            // 0: no such point
+        L<Real> impulse;         // accumulated, of a substep
     } points[2];
 };
 
 /// Read by the relax pass only.
-template <class Real>
+template <class Real, template <class> class L = Lanes>
 struct alignas(32) FrictionLanes {
-    Lanes<Real> friction;
+    L<Real> friction;
     struct Point {
-        Lanes<Real> leverA, leverB;  // r × tangent, in radii of gyration
-        Lanes<Real> mass;
-        Lanes<Real> impulse;
-        Lanes<Real> total;  // along the normal, of the step
+        L<Real> leverA, leverB;  // r × tangent, in radii of gyration
+        L<Real> mass;
+        L<Real> impulse;
+        L<Real> total;  // along the normal, of the step
     } points[2];
 };
 
 /// Read by the last pass of a step only, and kept only by groups in which something bounces.
-template <class Real>
+template <class Real, template <class> class L = Lanes>
 struct alignas(32) BounceLanes {
-    Lanes<Real> restitution;
-    Lanes<Real> approach[2];  // relative normal speed at the start of the step; negative: approaching
+    L<Real> restitution;
+    L<Real> approach[2];  // relative normal speed at the start of the step; negative: approaching
 };
 
 /// A point of A held to a point of B: the core of revolute, weld and similar joints.
-template <class Real>
+template <class Real, template <class> class L = Lanes>
 struct alignas(32) JointLanes {
     std::int32_t a[kLanes<Real>], b[kLanes<Real>];
-    Lanes<Real> leverAX, leverAY, leverBX, leverBY;  // the arms in radii of gyration
-    Lanes<Real> pushX, pushY;  // units / s that a push asks for: by the error, and the arms' turning on
-    Lanes<Real> inverseXX, inverseXY, inverseYY;
-    Lanes<Real> impulseX, impulseY;
+    L<Real> leverAX, leverAY, leverBX, leverBY;  // the arms in radii of gyration
+    L<Real> pushX, pushY;  // units / s that a push asks for: by the error, and the arms' turning on
+    L<Real> inverseXX, inverseXY, inverseYY;
+    L<Real> impulseX, impulseY;
     // Read once a substep.
-    Lanes<Real> armAX, armAY, armBX, armBY;  // from the centres
-    Lanes<Real> errorX, errorY;
-    Lanes<Real> perGyrationA, perGyrationB;
-    Lanes<Real> startAX, startAY, startBX, startBY, startErrorX, startErrorY;  // at the start of the step
+    L<Real> armAX, armAY, armBX, armBY;  // from the centres
+    L<Real> errorX, errorY;
+    L<Real> perGyrationA, perGyrationB;
+    L<Real> startAX, startAY, startBX, startBY, startErrorX, startErrorY;  // at the start of the step
 };
 
 /// Where the points of a group of joints lie in their bodies, from the centres; of the background: where they are.
-template <class Real>
+template <class Real, template <class> class L = Lanes>
 struct alignas(32) AnchorLanes {
     static constexpr int kFours = kLanes<Real> / 4;
-    Lanes<double> ax[kFours], ay[kFours], bx[kFours], by[kFours];
+    L<double> ax[kFours], ay[kFours], bx[kFours], by[kFours];
 };
 
 /// Where a body is at the start of a step, and how it is turned.
 struct alignas(32) BodyPlace {
-    double x = 0, y = 0, cosine = 1, sine = 0;
+    double x = 0, y = 0, cosine = 0, sine = 0;  // body 0 is not turned at all
 };
 
 /// A damped spring of some frequency, integrated implicitly over h, as a bias rate and two scales of the impulse.

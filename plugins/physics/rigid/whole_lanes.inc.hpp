@@ -1,0 +1,98 @@
+// Lanes in registers of 32 bytes: the compiler's vectors, and what they lack. Included by kernels.inc.hpp.
+
+template <class Real>
+using Lanes = physics::Lanes<Real>;
+template <class Real>
+using Mask = typename LaneTypes<Real>::Mask;
+
+template <class Real>
+JET_INLINE Lanes<Real> all(Real value)
+{
+    return Lanes<Real>{} + value;
+}
+template <class Real>
+JET_INLINE Lanes<Real> choose(const Mask<Real>& mask, const Lanes<Real>& yes, const Lanes<Real>& no)
+{
+    return (Lanes<Real>)((mask & (Mask<Real>)yes) | (~mask & (Mask<Real>)no));
+}
+/// A bit for each lane that is set.
+template <class Real>
+JET_INLINE std::uint32_t bitsOf(const Mask<Real>& mask)
+{
+    std::uint32_t bits = 0;
+    for (int i = 0; i < kLanes<Real>; ++i) bits |= static_cast<std::uint32_t>(mask[i] & 1) << i;
+    return bits;
+}
+template <class Values>
+JET_INLINE Values least(const Values& a, const Values& b)
+{
+    return a < b ? a : b;
+}
+template <class Values>
+JET_INLINE Values most(const Values& a, const Values& b)
+{
+    return a > b ? a : b;
+}
+
+typedef float Four __attribute__((vector_size(16), may_alias));
+typedef double FourDoubles __attribute__((vector_size(32), may_alias));
+
+/// Rows of four values of eight bodies to four rows of eight, or back: within the halves of a register, as AVX2
+/// shuffles best.
+JET_INLINE void transpose(Lanes<float> (&c)[4])
+{
+    const Lanes<float> t0 = __builtin_shufflevector(c[0], c[1], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t1 = __builtin_shufflevector(c[0], c[1], 2, 10, 3, 11, 6, 14, 7, 15);
+    const Lanes<float> t2 = __builtin_shufflevector(c[2], c[3], 0, 8, 1, 9, 4, 12, 5, 13);
+    const Lanes<float> t3 = __builtin_shufflevector(c[2], c[3], 2, 10, 3, 11, 6, 14, 7, 15);
+    c[0] = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
+    c[1] = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
+    c[2] = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
+    c[3] = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// Rows of four values of eight places, or four, to four rows of as many.
+template <class Of>
+JET_INLINE void gatherRows(const Of& of, Lanes<float>& x, Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
+{
+    Lanes<float> c[4];
+    for (int i = 0; i < 4; ++i) {
+        const Four low = *reinterpret_cast<const Four*>(of(i)), high = *reinterpret_cast<const Four*>(of(i + 4));
+        c[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+    transpose(c);
+    x = c[0], y = c[1], z = c[2], w = c[3];
+}
+template <class Of>
+JET_INLINE void gatherRows(const Of& of, Lanes<double>& x, Lanes<double>& y, Lanes<double>& z, Lanes<double>& w)
+{
+    const auto row = [&](int i) JET_INLINED { return *reinterpret_cast<const FourDoubles*>(of(i)); };
+    const Lanes<double> c0 = row(0), c1 = row(1), c2 = row(2), c3 = row(3);
+    const Lanes<double> t0 = __builtin_shufflevector(c0, c1, 0, 4, 2, 6),
+                        t1 = __builtin_shufflevector(c0, c1, 1, 5, 3, 7);
+    const Lanes<double> t2 = __builtin_shufflevector(c2, c3, 0, 4, 2, 6),
+                        t3 = __builtin_shufflevector(c2, c3, 1, 5, 3, 7);
+    x = __builtin_shufflevector(t0, t2, 0, 1, 4, 5), y = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
+    z = __builtin_shufflevector(t0, t2, 2, 3, 6, 7), w = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+}
+
+JET_INLINE void scatterRows(BodyState<float>* bodies, const std::int32_t* index, const Lanes<float>& x,
+                            const Lanes<float>& y, const Lanes<float>& z, const Lanes<float>& invMass)
+{
+    Lanes<float> c[4] = {x, y, z, invMass};
+    transpose(c);
+    // What never moves may be in many groups, of other threads, too.
+    const int moving = __builtin_ia32_movmskps256((Lanes<float>)(invMass != Lanes<float>{}));
+    for (int i = 0; i < 4; ++i) {
+        if (moving == 0xff || (moving >> i & 1) != 0)
+            *reinterpret_cast<Four*>(&bodies[index[i]]) = __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3);
+        if (moving == 0xff || (moving >> (i + 4) & 1) != 0)
+            *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
+    }
+}
+
+JET_INLINE void putFour(Lanes<double>& to, int, const Lanes<double>& values) { to = values; }
+JET_INLINE void putFour(Lanes<float>& to, int four, const Lanes<double>& values)
+{
+    reinterpret_cast<Four*>(&to)[four] = __builtin_convertvector(values, Four);
+}
