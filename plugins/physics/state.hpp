@@ -109,7 +109,6 @@ struct BodyRecord {
     float radius = 0;   // rigid: farthest point from the centre, scene units
     double length = 1;  // typical size, scene units: tolerances are fractions of it
     double gravityScale = 1;
-    double second = 0;                 // rigid: moment of inertia of a unit of mass, units²
     std::unique_ptr<SoftRecord> soft;  // of soft bodies
     // Rigid: in the node's frame, and null until gridOf() is asked; soft: in the scene's, as of the last detection.
     mutable std::unique_ptr<EdgeGrid> grid;

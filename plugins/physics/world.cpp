@@ -145,8 +145,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     body.single = isSingle(def);
     const std::vector<std::vector<Vec2>> outlines = outlinesOf(def);
     if (!lean_ || !body.single) keepOutline(body, outlines);
-    setRigidMass(body, def, outlines);
-    body.simple = rigid_.add(state_, handle, def);
+    setRigidMass(handle, def, outlines);
     if (body.simple) {
         body.grid.reset();
     } else {
@@ -160,8 +159,9 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
 
 /// Puts the node at the centre of mass and makes the points local to it. Borders without area count as equal masses at
 /// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
-void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines)
+void World::setRigidMass(BodyHandle handle, const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines)
 {
+    BodyRecord& body = state_.bodies[handle];
     const Region region = def.shapes.empty() ? measureRegion(state_, body) : measureShapes(def.shapes);
     double points = 0;
     for (const auto& outline : outlines) points += static_cast<double>(outline.size());
@@ -183,20 +183,24 @@ void World::setRigidMass(BodyRecord& body, const RigidBodyDef& def, const std::v
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.local[p] -= centre;
 
     const Index node = body.nodes.first;
-    body.second = second;
     state_.nodes.position[node] = centre;
-    applyMotion(body);
+    const double gyration = std::sqrt(second);
+    body.simple = rigid_.add(state_, handle, def, gyration);
+    if (!body.simple) gyrations_.cover(handle + std::size_t{1}), gyrations_[handle] = gyration;
+    applyMotion(handle);
 }
 
 /// What its node is for the solvers, from what the rigid body is.
-void World::applyMotion(BodyRecord& body)
+void World::applyMotion(BodyHandle handle)
 {
+    BodyRecord& body = state_.bodies[handle];
     const Index node = body.nodes.first;
     const bool moves = !body.fixed && !body.drives && body.enabled;
     body.kinematic = body.drives && body.enabled;
     const double mass = state_.nodes.mass[node];
     state_.nodes.invMass[node] = moves ? 1 / mass : 0;
-    state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (mass * body.second) : 0;
+    const double gyration = body.simple ? rigid_.gyrationOf(handle) : std::as_const(gyrations_)[handle];
+    state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (mass * gyration * gyration) : 0;
 }
 
 void World::extendReadings()

@@ -101,8 +101,8 @@ private:
     void reread(BodyHandle);
     void extendReadings();
     BodyHandle finishBody(const BodyCommon&);
-    void setRigidMass(BodyRecord&, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines);
-    void applyMotion(BodyRecord&);
+    void setRigidMass(BodyHandle, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines);
+    void applyMotion(BodyHandle);
     void enableSoft(BodyRecord&);
     BodyRecord& softBody(BodyHandle);
     const BodyRecord& softBody(BodyHandle) const;
@@ -170,9 +170,10 @@ private:
     soft::Tears tears_;
     RigidStage rigid_;
     Queries queries_;
-    bool lean_ = true;           // nothing has needed the points and walls of bodies of one shape
-    Index told_ = 0;             // then: first bodies of which outlines are told as they are now,
-    std::span<Box> toldBounds_;  // in memory of steps
+    Column<double> gyrations_{1};  // [bodies] units, of rigid ones that rigid_ does not have; up to the last of them
+    bool lean_ = true;             // nothing has needed the points and walls of bodies of one shape
+    Index told_ = 0;               // then: first bodies of which outlines are told as they are now,
+    std::span<Box> toldBounds_;    // in memory of steps
     std::span<Vec2> toldPoints_;
     bool settled_ = false;                 // has it been stepped?
     bool stale_ = false;                   // points and readings are older than the nodes

@@ -34,7 +34,7 @@ void World::setMass(BodyHandle handle, double mass)
     Nodes& nodes = state_.nodes;
     if (body.rigid) {
         nodes.mass[body.nodes.first] = mass;
-        applyMotion(body);
+        applyMotion(handle);
     } else {
         const double ratio = mass / before;
         body.soft->mass = mass;
@@ -68,7 +68,7 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
         body.drives = common.kinematic && !common.fixed, body.fixedRotation = common.fixedRotation;
         rigid_.stir(state_, handle);
         rigid_.wake(state_, handle);
-        applyMotion(body);
+        applyMotion(handle);
         if (body.fixedRotation && !body.drives) state_.nodes.omega[body.nodes.first] = 0;
         rigid_.set(state_, handle, common);
         reread(handle);
@@ -90,7 +90,7 @@ void World::setEnabled(BodyHandle handle, bool enabled)
     if (!enabled)
         for (Index n = body.nodes.first; n < body.nodes.end(); ++n) nodes.velocity[n] = Vec2(0, 0), nodes.omega[n] = 0;
     if (body.rigid) {
-        applyMotion(body);
+        applyMotion(handle);
         rigid_.enable(state_, handle, enabled);
     } else {
         enableSoft(body);

@@ -114,7 +114,7 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
         for (Nearing& n : nearing_) n.until = -1;
     welded_ = true;
     rearranged_ = false;
-    prepareBodies();
+    prepareBodies(arena);
     const float fall = static_cast<float>(settings.applyGravity ? settings.gravity.norm() * dt * dt : 0);
     std::atomic<bool> left = false;
     domains.eachBody(pool, [&](Index body, Index) {
@@ -154,15 +154,18 @@ void Collider::prepareSweep()
     }
 }
 
-void Collider::prepareBodies()
+void Collider::prepareBodies(Arena& arena)
 {
     const std::size_t count = bodies_.size();
-    if (drift_.size() < count) makeRoom(count - drift_.size(), drift_, reached_, surprise_);
     if (poses_.size() < count) makeRoom(count - poses_.size(), poses_, fitted_, way_);
     poses_.resize(count), fitted_.resize(count), way_.resize(count, 0.0);
-    drift_.resize(count, 0.0F), reached_.resize(count, 0.0);
-    if (surprised_ || surprise_.size() != count) surprise_.assign(count, 0.0F);
+    surprise_ = arena.take<float>(count);
+    std::fill(surprise_.begin(), surprise_.end(), 0.0F);
+    looks_ = arena.mark();
+    drift_ = arena.take<float>(count), reached_ = arena.take<double>(count);
+    drift_[0] = 0, reached_[0] = 0;
     if (sweep_.parts() != parts_.size()) prepareSweep();
+    sweep_.open(arena);
     surprised_ = fast_ = false;
 }
 
@@ -464,10 +467,9 @@ std::size_t Collider::bytes() const
 {
     return bodies_.capacity() * sizeof(RigidBody) + parts_.capacity() * sizeof(Part) +
            poses_.capacity() * sizeof(Pose) + fitted_.capacity() * sizeof(Fitting) +
-           contacts_.capacity() * (sizeof(RigidContact) + sizeof(Nearing)) +
-           (way_.capacity() + reached_.capacity()) * sizeof(double) + (places_.capacity() + free_.capacity()) * 4 +
-           (drift_.capacity() + surprise_.capacity()) * sizeof(float) + sweep_.bytes() + known_.bytes() +
-           excluded_.bytes() + weld_.bytes() + rules_.bytes();
+           contacts_.capacity() * (sizeof(RigidContact) + sizeof(Nearing)) + way_.capacity() * sizeof(double) +
+           (places_.capacity() + free_.capacity()) * 4 + sweep_.bytes() + known_.bytes() + excluded_.bytes() +
+           weld_.bytes() + rules_.bytes();
 }
 
 }  // namespace jet::physics

@@ -42,7 +42,7 @@ public:
     /// Nothing that has been looked at in this step is looked at again because it moves.
     void settleDrifts();
     /// Is there a reason to look at contacts though nothing moves?
-    bool restless() const { return disturbed_ || rearranged_ || !welded_ || drift_.size() != bodies_.size(); }
+    bool restless() const { return disturbed_ || rearranged_ || !welded_ || poses_.size() != bodies_.size(); }
 
     /// Where bodies are and which pairs may meet in the coming dt seconds.
     void find(const State&, const WorldSettings&, double dt, StepStats&, Pool&, Arena&, const Domains&);
@@ -77,6 +77,12 @@ public:
     {
         __builtin_prefetch(&contacts_[contact], 1);
         __builtin_prefetch(&poses_[nearing_[contact].bodyA]), __builtin_prefetch(&poses_[nearing_[contact].bodyB]);
+    }
+    /// Nothing more is looked at in this step: gives back what of the arena is needed for that alone.
+    void endLooks(Arena& arena)
+    {
+        arena.release(looks_);
+        drift_ = {}, reached_ = {};
     }
     /// All that was due has been looked at.
     void settled() { disturbed_ = false; }
@@ -147,7 +153,7 @@ private:
         return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
     }
     void measure();
-    void prepareBodies();
+    void prepareBodies(Arena&);
     bool takePose(Index body, const State&, float fall, double dt);
     void noteDrift(Index body);
     Vec2f fromFitting(Index body) const;
@@ -206,8 +212,11 @@ private:
     bool welded_ = false;     // are the outlines those of where bodies stand?
     std::vector<Pose> poses_;
     std::vector<Fitting> fitted_;
-    std::vector<float> drift_;     // [bodies] units it may come from where it rests in this step; huge: it moves
-    std::vector<float> surprise_;  // [bodies] units a hit may carry it in this step
+    // Of the step, in the arena; all but the first until endLooks().
+    std::span<float> surprise_;  // [bodies] units a hit may carry it in this step
+    std::span<float> drift_;     // [bodies] units it may come from where it rests in this step; huge: it moves
+    std::span<double> reached_;  // [bodies] units they may have come at the end of this step
+    std::size_t looks_ = 0;      // mark of the arena
     PairSweep sweep_;
     KeySet known_, excluded_;
     std::vector<std::pair<Index, Index>> found_;                 // scratch of findPairs()
@@ -218,7 +227,6 @@ private:
     std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step?
     std::vector<Vec2f> moved_;        // [bodies] units in this step; scratch of stopTunnelling()
     std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
-    std::vector<double> reached_;     // [bodies] units they may have come at the end of this step
     std::vector<Index> free_;         // gaps in the contacts
     std::vector<Index> roused_;       // bodies
     float typical_ = 0;               // length of a moving part in the middle

@@ -10,21 +10,24 @@ namespace jet::physics {
 /// A rigid body as collision and solver see it. Index 0 is nobody.
 struct RigidBody {
     Index node = kNone, handle = kNone;
-    Index firstPart = 0, partCount = 0;
-    Index rules = 0;     // in the collider's book
-    bool moves = false;  // pushed by contacts
-    bool kinematic = false, sensor = false;
-    bool mayRest = true;
-    bool enabled = true;
-    bool asleep = false, posed = false;  // rests; its pose was taken since it does
-    bool oneSided = false;               // by its rules
-    float length = 1;                    // typical size, units
-    float finest = 0;                    // the same of its smallest part
-    float reach = 0;                     // farthest point from the centre, units
-    double gyration = 1;                 // its radius, units
+    Index firstPart = 0;
+    Index partCount : 26 = 0;
+    bool moves : 1 = false;  // pushed by contacts
+    bool kinematic : 1 = false, sensor : 1 = false;
+    bool enabled : 1 = true;
+    bool asleep : 1 = false, posed : 1 = false;  // rests; its pose was taken since it does
+    Index rules : 28 = 0;                        // in the collider's book
+    bool oneSided : 1 = false;                   // by them
+    bool mayRest : 1 = true;
+    Index looks : 2 = 0;  // how often it was looked at whether it rests, three at most
+    float length = 1;     // typical size, units
+    float finest = 0;     // the same of its smallest part
+    float reach = 0;      // farthest point from the centre, units
+    double gyration = 1;  // its radius, units
 
     bool takesPart() const { return enabled && !asleep; }
 };
+static_assert(sizeof(RigidBody) == 40);
 
 /// What collision needs to know of a body's motion, refreshed at the start of a step. In a line of its own, as threads
 /// write those of different bodies.

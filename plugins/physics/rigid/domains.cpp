@@ -8,7 +8,6 @@ namespace jet::physics {
 
 namespace {
 
-constexpr Index kGap = 4;           // slots between domains: two lines, as processors fetch pairs of them
 constexpr std::size_t kWhole = 16;  // groups of up to this part of all bodies stay whole
 
 constexpr float kUneven = 0.04F;  // of the weight: so much may the halves differ for the sake of a better cut
@@ -19,17 +18,16 @@ using Links = std::vector<std::pair<Index, Index>>;
 
 void Domains::resize(std::size_t bodies)
 {
-    if (nodes_.size() == bodies) return;
-    if (nodes_.empty() || nodes_.size() > bodies) {
-        nodes_.assign(bodies, kRoot);
+    if (count_ == bodies) return;
+    if (depth_ == 0 || count_ > bodies) {
+        depth_ = 0, count_ = bodies;
         place();
         return;
     }
-    for (std::size_t body = nodes_.size(); body < bodies; ++body) {
+    for (; count_ < bodies; ++count_, ++newcomers_) {
         nodes_.push_back(kRoot);
         slots_.push_back(static_cast<Index>(bodies_.size()));
-        bodies_.push_back(static_cast<Index>(body));
-        if (depth_ > 0) ++newcomers_;
+        bodies_.push_back(static_cast<Index>(count_));
     }
     ranges_[kRoot].last = static_cast<Index>(bodies_.size());
 }
@@ -37,9 +35,15 @@ void Domains::resize(std::size_t bodies)
 /// Slots follow from nodes.
 void Domains::place()
 {
-    slots_.assign(nodes_.size(), 0);
+    std::fill(std::begin(ranges_), std::end(ranges_), Slots());
+    if (depth_ == 0) {
+        nodes_ = {}, slots_ = {}, bodies_ = {};
+        ranges_[kRoot] = {kGap, static_cast<Index>(std::max<std::size_t>(count_, 1)) + kGap - 1};
+        return;
+    }
+    slots_.assign(count_, 0);
     bodies_.assign(kGap, kNone);
-    if (!nodes_.empty()) bodies_[0] = 0;
+    bodies_[0] = 0;
     const auto fill = [&](Node node) {
         ranges_[node].first = static_cast<Index>(bodies_.size());
         for (Index body = 1; body < nodes_.size(); ++body) {
@@ -50,8 +54,7 @@ void Domains::place()
         ranges_[node].last = static_cast<Index>(bodies_.size());
         bodies_.resize((bodies_.size() + 2 * kGap - 1) / kGap * kGap, kNone);
     };
-    std::fill(std::begin(ranges_), std::end(ranges_), Slots());
-    for (std::size_t i = 0; depth_ > 0 && i < leaves(); ++i) fill(leaf(i));
+    for (std::size_t i = 0; i < leaves(); ++i) fill(leaf(i));
     fill(kRoot);
     bodies_.resize(ranges_[kRoot].last);
 }
@@ -59,13 +62,13 @@ void Domains::place()
 /// Small groups of linked bodies are seen as one, at the middle of them.
 void Domains::group(std::vector<Item>& items, const Links& links) const
 {
-    std::vector<Index> root(nodes_.size());
+    std::vector<Index> root(count_);
     std::iota(root.begin(), root.end(), Index{0});
     const auto rootOf = [&](Index body) {
         while (root[body] != body) body = root[body] = root[root[body]];
         return body;
     };
-    std::vector<float> weight(nodes_.size(), 1);
+    std::vector<float> weight(count_, 1);
     for (const auto& [a, b] : links) {
         weight[a] += 0.5F, weight[b] += 0.5F;
         const Index first = rootOf(a), second = rootOf(b);
@@ -75,7 +78,7 @@ void Domains::group(std::vector<Item>& items, const Links& links) const
         double x = 0, y = 0;
         std::size_t count = 0;
     };
-    std::vector<Sum> sums(nodes_.size());
+    std::vector<Sum> sums(count_);
     for (const Item& item : items) {
         Sum& sum = sums[rootOf(item.at.body)];
         sum.x += item.at.x, sum.y += item.at.y, ++sum.count;
@@ -95,8 +98,8 @@ void Domains::divide(int depth, std::vector<Body> bodies, const Links& links)
 {
     depth_ = depth;
     newcomers_ = 0;
-    std::fill(nodes_.begin(), nodes_.end(), kRoot);
     if (depth > 0) {
+        nodes_.assign(count_, kRoot);
         std::vector<Item> items;
         items.reserve(bodies.size());
         for (const Body& body : bodies) items.push_back({body, body.body, 1});

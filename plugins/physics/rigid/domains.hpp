@@ -36,7 +36,7 @@ public:
     Node leaf(std::size_t index) const { return static_cast<Node>(leaves() + index); }
     bool isLeaf(Node node) const { return levelOf(node) == depth_; }
 
-    Node nodeOf(Index body) const { return nodes_[body]; }
+    Node nodeOf(Index body) const { return depth_ == 0 ? kRoot : nodes_[body]; }
     /// The lowest node above both.
     static Node meet(Node a, Node b)
     {
@@ -52,12 +52,20 @@ public:
     }
     static int levelOf(Node node) { return 31 - __builtin_clz(node); }
 
-    /// Body 0 is in slot 0; those of the root alone come last.
-    Index slotOf(Index body) const { return slots_[body]; }
+    /// Body 0 is in slot 0; those of the root alone come last. Undivided, they are in the order of the bodies.
+    Index slotOf(Index body) const
+    {
+        if (depth_ > 0) return slots_[body];
+        return body == 0 ? 0 : body + kGap - 1;
+    }
     /// kNone: nobody's.
-    Index bodyAt(Index slot) const { return bodies_[slot]; }
+    Index bodyAt(Index slot) const
+    {
+        if (depth_ > 0) return bodies_[slot];
+        return slot == 0 ? 0 : slot < kGap ? kNone : slot - kGap + 1;
+    }
     Slots slotsOf(Node node) const { return ranges_[node]; }
-    std::size_t slotCount() const { return bodies_.size(); }
+    std::size_t slotCount() const { return ranges_[kRoot].last; }
     /// Bodies that came since the division; they are the root's.
     std::size_t newcomers() const { return newcomers_; }
 
@@ -67,10 +75,10 @@ public:
     void eachBody(Pool& pool, Work&& work) const
     {
         const auto range = [&](std::size_t first, std::size_t last) {
-            for (std::size_t slot = first; slot < last; ++slot) work(bodies_[slot], static_cast<Index>(slot));
+            for (auto slot = static_cast<Index>(first); slot < last; ++slot) work(bodyAt(slot), slot);
         };
         if (pool.threads() == 1) {
-            for (Index body = 1; body < slots_.size(); ++body) work(body, slots_[body]);
+            for (Index body = 1; body < count_; ++body) work(body, slotOf(body));
             return;
         }
         if (depth_ > 0)
@@ -91,12 +99,15 @@ public:
     void archive(Archive& with, std::size_t bodies)
     {
         resize(bodies);
-        with(depth_), with(newcomers_), with(nodes_);
+        with(depth_), with(newcomers_);
         if (depth_ < 0 || depth_ > kMostDepth) RestoreArchive::fail();
+        nodes_.resize(depth_ > 0 ? bodies : 0, kRoot);
+        with(nodes_);
         if constexpr (std::is_same_v<Archive, RestoreArchive>) place();
     }
 
 private:
+    static constexpr Index kGap = 4;  // slots between domains: two lines, as processors fetch pairs of them
     struct Item {
         Body at;
         Index group;  // bodies of one group are not parted
@@ -109,7 +120,9 @@ private:
     void place();
 
     int depth_ = 0;
+    std::size_t count_ = 0;  // bodies, with body 0
     std::uint64_t newcomers_ = 0;
+    // Of a divided world.
     std::vector<Node> nodes_;    // [bodies]
     std::vector<Index> slots_;   // [bodies]
     std::vector<Index> bodies_;  // [slots]

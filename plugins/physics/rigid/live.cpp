@@ -16,7 +16,7 @@ auto meetingsOf(const RigidBody& body) { return std::tuple(body.enabled, body.mo
 void RigidStage::set(const State& state, Index handle, const BodyCommon& common)
 {
     if (!has(handle)) return;
-    const Index index = bodyOf_[handle];
+    const Index index = bodyOf(handle);
     RigidBody& body = collider_.bodies()[index];
     RigidBody wanted = body;
     const Rules rules(common);
@@ -35,14 +35,14 @@ void RigidStage::set(const State& state, Index handle, const BodyCommon& common)
 bool RigidStage::isSet(Index handle, const BodyCommon& common) const
 {
     if (!has(handle)) return true;
-    const RigidBody& body = collider_.bodies()[bodyOf_[handle]];
+    const RigidBody& body = collider_.bodies()[bodyOf(handle)];
     return body.mayRest == common.allowSleep && collider_.rulesOf(body) == Rules(common);
 }
 
 void RigidStage::enable(const State& state, Index handle, bool enabled)
 {
     if (!has(handle)) return;
-    const Index index = bodyOf_[handle];
+    const Index index = bodyOf(handle);
     forgetContacts(index);
     RigidBody& body = collider_.bodies()[index];
     body.enabled = enabled;

@@ -76,9 +76,9 @@ JET_INLINE Bits prepare(const LookInput& in, const Index* which, Pairs& p, Seen&
     p.travel = closingWay(a, b, apart.x, apart.y, in.dt);
     Eight lengthB, reachA, reachB, corners, word, word2, ids;
     gather([&](int i) { return p.a[i]; }, p.radiusA, p.lengthA, reachA, corners);
-    p.countA = bitsIn(corners);
+    p.countA = bitsIn(corners) & 0xff;
     gather([&](int i) { return p.b[i]; }, p.radiusB, lengthB, reachB, corners);
-    p.countB = bitsIn(corners);
+    p.countB = bitsIn(corners) & 0xff;
     p.shorter = least(p.lengthA, lengthB);
     gather([&](int i) { return &p.c[i]->at; }, p.oldMove.x, p.oldMove.y, p.oldTurn.x, p.oldTurn.y);
     gather([&](int i) { return &p.c[i]->slop; }, p.slop, p.separations[0], p.separations[1], p.oldReach);

@@ -94,9 +94,7 @@ void PairSweep::resize(std::size_t parts, float typical)
     typical_ = typical;
     filled_ = false;
     if (boxes_.size() == parts) return;
-    boxes_.resize(parts), before_.resize(parts, kNowhere);
-    if (moved_.size() < parts) anyMoved_ = true;
-    moved_.resize(parts, 1);
+    boxes_.resize(parts, kNowhere), moved_.resize(parts, 0);
     if (!pieceOf_.empty()) pieceOf_.resize(parts, 0);
     classes_.resize(parts, kNoClass), buckets_.resize(parts), sorted_.resize(parts);
     shift_ = 64 - std::max(1, static_cast<int>(std::bit_width(parts)));
@@ -261,7 +259,7 @@ std::uint64_t PairSweep::stretchesOf(const FatBox& box) const
 
 std::size_t PairSweep::bytes() const
 {
-    return boxes_.capacity() * (2 * sizeof(FatBox) + 3 * sizeof(Index) + 2 * sizeof(float) + 2) +
+    return boxes_.capacity() * (sizeof(FatBox) + 3 * sizeof(Index) + 2 * sizeof(float) + 2) +
            room_.capacity() * sizeof(float) + begin_.capacity() * sizeof(Index);
 }
 

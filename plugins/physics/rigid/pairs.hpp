@@ -38,6 +38,8 @@ public:
     std::size_t parts() const { return boxes_.size(); }
     const FatBox& box(Index part) const { return boxes_[part]; }
     const FatBox* boxes() const { return boxes_.data(); }
+    /// Before anything is moved, and until finish(): room for where it was.
+    void open(Arena& arena) { before_ = arena.take<FatBox>(parts()); }
     /// To be followed by noteMoves(); different parts may be moved at once.
     void move(Index part, const FatBox& to)
     {
@@ -60,14 +62,14 @@ public:
     /// Pairs that were found before are to be found again.
     void forget()
     {
-        std::fill(before_.begin(), before_.end(), kNowhere);
-        filled_ = false;
+        std::fill(boxes_.begin(), boxes_.end(), kNowhere);
+        rebuild();
     }
     /// The same for a part that is moved next.
     void forget(Index part)
     {
         if (part >= boxes_.size()) return;
-        boxes_[part] = before_[part] = kNowhere, classes_[part] = kNoClass;
+        boxes_[part] = kNowhere, classes_[part] = kNoClass;
         filled_ = false;
     }
 
@@ -107,7 +109,7 @@ public:
     /// After restoring.
     void rebuild()
     {
-        forget();
+        filled_ = false;
         std::fill(classes_.begin(), classes_.end(), kNoClass);
     }
     std::size_t bytes() const;
@@ -301,7 +303,8 @@ private:
     const Sieve* sieve_ = &sse2::pairSieve;
     Index pieceOf(Index part) const { return pieces_.size() == 1 ? 0 : pieceOf_[part]; }
 
-    std::vector<FatBox> boxes_, before_;          // [parts] before they were moved
+    std::vector<FatBox> boxes_;                   // [parts]
+    std::span<FatBox> before_;                    // [parts] before they were moved; of those that were
     std::vector<Index> pieceOf_;                  // [parts] 0: it is in one piece; nothing where all are
     std::vector<std::vector<FatBox>> pieces_{1};  // of long parts
     std::vector<Index> long_{0};                  // [pieces_] whose they are

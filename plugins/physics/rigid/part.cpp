@@ -20,17 +20,15 @@ double signedArea(const Vec2* at, int count)
 Part makePart(const Vec2* corners, int count, double radius)
 {
     Part part;
-    part.count = count;
+    part.count = static_cast<std::uint8_t>(count);
     part.radius = static_cast<float>(radius);
     const double area = signedArea(corners, count);
     part.reversed = area < 0;
     double around = 0, reach = 0, thickness = 1e300;
-    Vec2 centre(0, 0);
     for (int i = 0; i < count; ++i) {
         const Vec2& at = corners[area < 0 ? count - 1 - i : i];
         const Vec2& next = corners[area < 0 ? (2 * count - 2 - i) % count : (i + 1) % count];
         part.corners[i] = single(at);
-        centre += at / count;
         reach = std::max(reach, at.norm() + radius);
         if (count == 1) break;
         const double length = (next - at).norm();
@@ -43,12 +41,18 @@ Part makePart(const Vec2* corners, int count, double radius)
     }
     for (int i = count; i <= kMostCorners; ++i) part.corners[i] = part.corners[0];
     for (int i = count; i < kMostCorners; ++i) part.normals[i] = part.normals[0];
-    part.centre = single(centre);
     part.reach = static_cast<float>(reach);
     part.thickness = static_cast<float>((count > 1 ? thickness : 0) + 2 * radius);
     part.length = static_cast<float>(
         std::sqrt(std::abs(area) + (count == 2 ? 2 * around : around) * radius + kPi * radius * radius));
     return part;
+}
+
+Vec2f Part::centre() const
+{
+    Vec2f sum;
+    for (int i = 0; i < count; ++i) sum = sum + corners[i];
+    return (1 / static_cast<float>(count)) * sum;
 }
 
 }  // namespace jet::physics

@@ -25,7 +25,6 @@ inline Vec2f turned(Vec2f turn, Vec2f v) { return {turn.x * v.x - turn.y * v.y, 
 inline Vec2f turnedBack(Vec2f turn, Vec2f v) { return {turn.x * v.x + turn.y * v.y, turn.x * v.y - turn.y * v.x}; }
 
 inline constexpr int kMostCorners = 8;
-inline constexpr std::uint32_t kNoOutline = 0xffffffffU;
 
 /// What of a part is the outside of its body: parts of drawn outlines and walls of chains only (outlined.hpp).
 struct PartOutline {
@@ -41,15 +40,19 @@ struct alignas(16) Part {
     float radius = 0;        // units
     float length = 0;        // typical size, units: tolerances are fractions of it
     float reach = 0;         // units: farthest point from the body's centre of mass
-    int count = 0;           // corners: 1 circle, 2 capsule, 3.. polygon
-    std::uint32_t body = 0;  // index of the rigid body
-    std::uint32_t outline = kNoOutline;
-    Vec2f centre;                     // of the corners, in the body's frame
+    std::uint8_t count = 0;  // corners: 1 circle, 2 capsule, 3.. polygon
+    bool reversed = false;   // do they lie in the other direction than they were given in?
+    bool outlined = false;   // has it an outline (weld.hpp)?
+    std::uint8_t unused = 0;
     Vec2f normals[kMostCorners];      // unit, outward, of the side from corner i to i + 1; a segment has two
     Vec2f corners[kMostCorners + 1];  // in the body's frame, so that normals are to the right of the way round
+    std::uint32_t body = 0;           // index of the rigid body
     float thickness = 0;              // units: the narrowest way through it
-    bool reversed = false;            // do they lie in the other direction than they were given in?
+
+    /// The middle of its corners, in the body's frame.
+    Vec2f centre() const;
 };
+static_assert(sizeof(Part) == 160);
 
 /// Where B's frame is in A's.
 struct Relative {

@@ -37,8 +37,8 @@ float Collider::closingSpeed(const RigidContact& c) const
 Manifold Collider::meet(const RigidContact& c, const Relative& at, float reach) const
 {
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
-    if (a.outline == kNoOutline && b.outline == kNoOutline) return physics::collide(a, b, at, reach);
-    Manifold m = collideOutlined(a, weld_.outlineOf(a), b, weld_.outlineOf(b), at, reach);
+    if (!a.outlined && !b.outlined) return physics::collide(a, b, at, reach);
+    Manifold m = collideOutlined(a, weld_.outlineOf(c.partA), b, weld_.outlineOf(c.partB), at, reach);
     m.gap = 0;  // not known: what is not felt may be near
     return m;
 }
@@ -49,9 +49,9 @@ bool Collider::fromBehind(const RigidContact& c) const
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
     const auto behind = [](const Part& wall, Vec2f other) { return dot(wall.normals[0], other - wall.corners[0]) < 0; };
     const Relative at = relative(c.bodyA, c.bodyB);
-    const PartOutline *outlineA = weld_.outlineOf(a), *outlineB = weld_.outlineOf(b);
-    if (outlineA != nullptr && outlineA->wall) return behind(a, at.move + turned(at.turn, b.centre));
-    if (outlineB != nullptr && outlineB->wall) return behind(b, turnedBack(at.turn, a.centre - at.move));
+    const PartOutline *outlineA = weld_.outlineOf(c.partA), *outlineB = weld_.outlineOf(c.partB);
+    if (outlineA != nullptr && outlineA->wall) return behind(a, at.move + turned(at.turn, b.centre()));
+    if (outlineB != nullptr && outlineB->wall) return behind(b, turnedBack(at.turn, a.centre() - at.move));
     return false;
 }
 
@@ -92,7 +92,7 @@ bool Collider::noteHit(const RigidContact& c, bool fast)
 Collider::Kind Collider::kindOf(const RigidContact& c) const
 {
     const Part &a = parts_[c.partA], &b = parts_[c.partB];
-    const bool alone = c.special | c.passing | ((a.outline & b.outline) != kNoOutline);
+    const bool alone = c.special | c.passing | a.outlined | b.outlined;
     return static_cast<Kind>(alone ? kAlone : (a.count > 1) + (b.count > 1));  // a circle is always second
 }
 
@@ -122,8 +122,8 @@ void Collider::update(Kind kind, const std::size_t* places, std::size_t count, c
     int mostA = 1, mostB = 1;
     for (std::size_t i = 0; i < Looker::kPairs; ++i) {
         lanes[i] = which[places[i < count ? i : 0]];
-        mostA = std::max(mostA, parts_[contacts_[lanes[i]].partA].count);
-        mostB = std::max(mostB, parts_[contacts_[lanes[i]].partB].count);
+        mostA = std::max<int>(mostA, parts_[contacts_[lanes[i]].partA].count);
+        mostB = std::max<int>(mostB, parts_[contacts_[lanes[i]].partB].count);
     }
     const LookInput input{
         contacts_.data(),      poses_.data(), sweep_.boxes(), parts_.data(), surprised_ ? surprise_.data() : nullptr,

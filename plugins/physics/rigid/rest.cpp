@@ -49,7 +49,7 @@ bool RigidStage::restDue(double dt)
 /// Was it still between the last two looks and this one, and in balance?
 RigidStage::Stillness RigidStage::stillness(Index index, const State& state, double gravity, double interval)
 {
-    const RigidBody& body = collider_.bodies()[index];
+    RigidBody& body = collider_.bodies()[index];
     const Vec2& at = state.nodes.position[body.node];
     const double reach = static_cast<double>(body.reach), turned = state.nodes.angle[body.node] * reach;
     const double length = static_cast<double>(body.finest);
@@ -64,18 +64,18 @@ RigidStage::Stillness RigidStage::stillness(Index index, const State& state, dou
     const double before = norm(watch.velocityX, watch.velocityY, watch.swing), now = norm(x, y, swing);
     const double bend = norm(x - watch.velocityX, y - watch.velocityY, swing - watch.swing) / interval;
     watch.velocityX = x, watch.velocityY = y, watch.swing = swing;
-    watch.looks = std::min<std::uint32_t>(watch.looks + 1, 3);
+    if (body.looks < 3) ++body.looks;
     watch.stayed += static_cast<float>(interval);
     // Far from the origin single precision has gaps.
     const double gap = kGap * (std::abs(at.x()) + std::abs(at.y()) + std::abs(turned));
-    if (watch.looks == 1 || norm(offX, offY, offTurned) > kPlace * length + gap) {
+    if (body.looks == 1 || norm(offX, offY, offTurned) > kPlace * length + gap) {
         const auto single = [](double value) { return static_cast<float>(std::clamp(value, -3e38, 3e38)); };
         watch.placeX = single(at.x()), watch.placeY = single(at.y()), watch.placeTurned = single(turned);
         watch.stayed = 0;
     }
     watch.x = static_cast<float>(from(at.x(), watch.placeX)), watch.y = static_cast<float>(from(at.y(), watch.placeY));
     watch.turned = static_cast<float>(from(turned, watch.placeTurned));
-    if (!body.mayRest || watch.looks < 3) return Stillness::Moves;
+    if (!body.mayRest || body.looks < 3) return Stillness::Moves;
     const bool balanced = bend < (gravity > 0 ? kUnborne * gravity : kUnborneSize * length);
     const double speed = std::max(before, now) / length;
     if (balanced && speed < kHangingSpeed) return Stillness::Rests;
@@ -88,8 +88,11 @@ void RigidStage::rest(State& state, const WorldSettings& settings, const Bonds& 
     const double interval = sinceLook_, gravity = settings.applyGravity ? settings.gravity.norm() : 0;
     sinceLook_ = 0;
     const std::size_t count = collider_.bodies().size();
-    if (watches_.size() < count) makeRoom(count - watches_.size(), watches_, group_);
-    watches_.resize(count), group_.resize(count, kNone), still_.assign(count, Stillness::Moves);
+    if (watches_.size() < count) makeRoom(count - watches_.size(), watches_);
+    watches_.resize(count);
+    arena_.reset();  // the step is over
+    still_ = arena_.take<Stillness>(count);
+    std::fill(still_.begin(), still_.end(), Stillness::Moves);
     bool any = false;
     for (Index i = 1; i < count; ++i) {
         const RigidBody& body = collider_.bodies()[i];
@@ -98,8 +101,7 @@ void RigidStage::rest(State& state, const WorldSettings& settings, const Bonds& 
         any |= still_[i] != Stillness::Moves;
     }
     if (!any) return;
-    for (const Index handle : bonds.awake)
-        if (has(handle)) still_[bodyOf_[handle]] = Stillness::Moves;
+    for (const Index handle : bonds.awake) still_[bodyOf(handle)] = Stillness::Moves;  // 0: nobody's
     unite(state, bonds);
     // One that moves keeps all of its group awake.
     for (Index i = 1; i < count; ++i)
@@ -123,6 +125,8 @@ void RigidStage::join(Index a, Index b)
 void RigidStage::unite(const State& state, const Bonds& bonds)
 {
     const auto& bodies = collider_.bodies();
+    if (group_.size() < bodies.size()) makeRoom(bodies.size() - group_.size(), group_);
+    group_.resize(bodies.size(), kNone);
     const auto grouped = [&](Index body) { return bodies[body].moves && !bodies[body].asleep; };
     for (Index i = 1; i < bodies.size(); ++i)
         if (!bodies[i].asleep) group_[i] = bodies[i].moves ? i : kNone;
@@ -141,7 +145,7 @@ void RigidStage::unite(const State& state, const Bonds& bonds)
     for (const Joint& joint : joints_)
         if (joint.lives()) hold(joint.a, joint.b);
     for (const auto& [a, b] : bonds.pairs) {
-        const Index first = has(a) ? bodyOf_[a] : 0, second = has(b) ? bodyOf_[b] : 0;
+        const Index first = bodyOf(a), second = bodyOf(b);
         if (first != second) hold(first, second);
     }
 }
@@ -181,7 +185,7 @@ void RigidStage::wakeGroup(State& state, Index group)
         if (!bodies[i].asleep || group_[i] != group) continue;
         bodies[i].asleep = bodies[i].posed = false;
         state.bodies[bodies[i].handle].asleep = false;
-        watches_[i].looks = 0;
+        bodies[i].looks = 0;
         --sleepers_;
         woke_ = true;
         ++jointsVersion_;
@@ -191,8 +195,8 @@ void RigidStage::wakeGroup(State& state, Index group)
 void RigidStage::wake(State& state, Index handle)
 {
     if (!has(handle)) return;
-    const Index body = bodyOf_[handle];
-    if (body < watches_.size()) watches_[body].looks = 0;
+    const Index body = bodyOf(handle);
+    collider_.bodies()[body].looks = 0;
     if (collider_.bodies()[body].asleep) wakeGroup(state, group_[body]);
 }
 
@@ -204,7 +208,7 @@ void RigidStage::wakeAll(State& state)
 void RigidStage::stir(State& state, Index handle)
 {
     if (!has(handle) || sleepers_ == 0) return;
-    const Index body = bodyOf_[handle];
+    const Index body = bodyOf(handle);
     const auto wakeBody = [&](Index other) {
         if (collider_.bodies()[other].asleep) wakeGroup(state, group_[other]);
     };

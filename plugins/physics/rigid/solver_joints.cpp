@@ -44,7 +44,7 @@ void Solver<Real>::layOutJoints(std::vector<Joint>& joints, const std::vector<Ri
 {
     if (jointsVersion_ == version && jointsH_ == shape_.h) return;
     releaseJoints(joints);
-    takenByJoints_.resize(bodies.size(), domains_.depth());
+    if (!joints.empty()) takenByJoints_.resize(bodies.size(), domains_.depth());
     for (Index i = 0; i < joints.size(); ++i) {
         if (!bodies[joints[i].a].takesPart() || !bodies[joints[i].b].takesPart()) continue;
         joints[i].state.force = Vec2(0, 0), joints[i].state.torque = 0;

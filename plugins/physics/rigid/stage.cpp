@@ -60,23 +60,34 @@ std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Vec2& centre, doub
 
 }  // namespace
 
-bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def)
+bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, double gyration)
 {
     const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
     body.node = node, body.handle = handle;
-    body.moves = state.nodes.invMass[node] > 0;
+    body.moves = !def.common.fixed && !def.common.kinematic;
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
-    body.gyration = std::sqrt(state.bodies[handle].second);
+    body.gyration = gyration;
     const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
-    if (bodyOf_.size() <= handle) makeRoom(handle + 1 - bodyOf_.size(), bodyOf_), bodyOf_.resize(handle + 1, 0);
-    bodyOf_[handle] = collider_.addBody(body, Rules(def.common));
+    const Index index = collider_.addBody(body, Rules(def.common));
+    keepBodyOf(handle, index);
     movers_ += body.moves;
-    if (body.kinematic) kinematic_.push_back(bodyOf_[handle]);
+    if (body.kinematic) kinematic_.push_back(index);
     for (const DrawnPart& part : drawn) collider_.addPart(part.part, part.outlined ? &part.outline : nullptr);
     return true;
+}
+
+void RigidStage::keepBodyOf(Index handle, Index body)
+{
+    if (bodyOf_.empty() && handle == ownHandles_ && body == handle + 1) {
+        ++ownHandles_;
+        return;
+    }
+    const std::size_t count = handle - ownHandles_ + std::size_t{1};
+    if (bodyOf_.size() < count) makeRoom(count - bodyOf_.size(), bodyOf_), bodyOf_.resize(count, 0);
+    bodyOf_[handle - ownHandles_] = body;
 }
 
 Index RigidStage::addJoint(const State& state, const JointDef& def)
@@ -86,7 +97,7 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
     const auto attach = [&](const Anchor& anchor, Index& body, Vec2& local) {
         local = anchor.point;
         if (anchor.body == kNoHandle) return 0.0;
-        body = bodyOf_[anchor.body];
+        body = bodyOf(anchor.body);
         const Index node = collider_.bodies()[body].node;
         local = unrotated(state.nodes.rotation[node], anchor.point - state.nodes.position[node]);
         return state.nodes.angle[node];
@@ -180,6 +191,7 @@ void RigidStage::look(Solver<Real>& solver, State& state, const WorldSettings& s
     for (int round = 0;
          round < kHitRounds && solver.foresees() && collider_.expectHits(state, settings, dt, pool_, arena_); ++round)
         refresh(solver, state, settings, dt);
+    collider_.endLooks(arena_);
     stats.narrowPhaseMs += millisecondsSince(start);
 }
 
@@ -428,7 +440,7 @@ void RigidStage::breakJoints()
 
 void RigidStage::disturb(Index handle)
 {
-    if (has(handle)) collider_.disturb(bodyOf_[handle]);
+    if (has(handle)) collider_.disturb(bodyOf(handle));
 }
 
 void RigidStage::noteTouches(const std::vector<TouchChange>& changes)
@@ -480,8 +492,8 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
 
 std::size_t RigidStage::bytes() const
 {
-    return roomOf(bodyOf_, watches_, group_, still_) + arena_.bytes() + collider_.bytes() + single_.bytes() +
-           double_.bytes() + joints_.capacity() * sizeof(Joint);
+    return roomOf(bodyOf_, watches_, group_) + arena_.bytes() + collider_.bytes() + single_.bytes() + double_.bytes() +
+           joints_.capacity() * sizeof(Joint);
 }
 
 }  // namespace jet::physics

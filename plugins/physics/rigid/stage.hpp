@@ -19,13 +19,12 @@ struct Bonds {
 class RigidStage {
 public:
     /// Takes the body if its outline is simple; its node is where it shall be. Says whether it did.
-    bool add(const State&, Index handle, const RigidBodyDef&);
+    bool add(const State&, Index handle, const RigidBodyDef&, double gyration);
+    /// Its radius, units.
+    double gyrationOf(Index handle) const { return collider_.bodies()[bodyOf(handle)].gyration; }
     /// Of a body that has no other.
-    const Part& onlyPart(Index handle) const
-    {
-        return collider_.parts()[collider_.bodies()[bodyOf_[handle]].firstPart];
-    }
-    bool has(Index handle) const { return handle < bodyOf_.size() && bodyOf_[handle] != 0; }
+    const Part& onlyPart(Index handle) const { return collider_.parts()[collider_.bodies()[bodyOf(handle)].firstPart]; }
+    bool has(Index handle) const { return bodyOf(handle) != 0; }
     std::size_t count() const { return collider_.bodies().size() - 1; }
     bool empty() const { return count() == 0; }
 
@@ -75,7 +74,7 @@ public:
     bool allAsleep(const State&) const;
     /// In place of such a step.
     void skip();
-    bool asleep(Index handle) const { return has(handle) && collider_.bodies()[bodyOf_[handle]].asleep; }
+    bool asleep(Index handle) const { return has(handle) && collider_.bodies()[bodyOf(handle)].asleep; }
 
     void report(std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
     const std::vector<ContactEvent>& events() const { return events_; }
@@ -96,8 +95,15 @@ public:
         watches_.resize(collider_.bodies().size()), group_.resize(collider_.bodies().size(), kNone);
         with(watches_), with(group_), with(sinceLook_), with(restH_), with(sleepers_), with(drowsy_), with(woke_);
         for (RigidBody& body : collider_.bodies()) {
-            with(body.asleep), with(body.enabled), with(body.moves), with(body.kinematic), with(body.sensor);
-            with(body.mayRest);
+            const auto flag = [&with](bool value) {
+                with(value);
+                return value;
+            };
+            std::uint32_t looks = body.looks;
+            with(looks);
+            body.looks = looks & 3;
+            body.asleep = flag(body.asleep), body.enabled = flag(body.enabled), body.moves = flag(body.moves);
+            body.kinematic = flag(body.kinematic), body.sensor = flag(body.sensor), body.mayRest = flag(body.mayRest);
             Rules rules = collider_.rulesOf(body);
             with(rules);
             if constexpr (std::is_same_v<Archive, RestoreArchive>) collider_.setRules(body, rules);
@@ -133,6 +139,13 @@ public:
     }
 
 private:
+    /// 0: it is not here.
+    Index bodyOf(Index handle) const
+    {
+        if (handle < ownHandles_) return handle + 1;
+        return handle - ownHandles_ < bodyOf_.size() ? bodyOf_[handle - ownHandles_] : 0;
+    }
+    void keepBodyOf(Index handle, Index body);
     StepShape shapeOf(const WorldSettings&, double dt, bool large) const;
     template <class Real>
     void solve(Solver<Real>&, State&, const WorldSettings&, double dt, StepStats&);
@@ -178,7 +191,8 @@ private:
     Collider collider_;
     Active active_ = Active::None;
     bool resolving_ = true;
-    std::vector<Index> bodyOf_;  // [handles] 0: not here
+    Index ownHandles_ = 0;       // handles below are those of body handle + 1
+    std::vector<Index> bodyOf_;  // [handles from there on] 0: not here
     std::vector<Joint> joints_;
     std::uint64_t jointsVersion_ = 1;   // counts changes of what the solver knows of joints
     std::uint64_t brittleVersion_ = 0;  // that `brittle_` is of
@@ -202,16 +216,15 @@ private:
         float x = 0, y = 0, turned = 0;                 // as of the last look, from there
         float velocityX = 0, velocityY = 0, swing = 0;  // mean before the last look
         float stayed = 0;                               // seconds
-        std::uint32_t looks = 0;
     };
-    std::vector<Watch> watches_;    // [bodies]
-    std::vector<Index> group_;      // [bodies] that fell asleep together: the least of them
-    std::vector<Stillness> still_;  // [bodies] scratch of rest()
-    double sinceLook_ = 0;          // seconds
-    double restH_ = 0;              // substep the impulses of sleeping contacts are of, seconds
-    std::uint32_t sleepers_ = 0;    // bodies
-    bool drowsy_ = false;           // has one fallen asleep after the last step?
-    bool woke_ = false;             // has a body woken since contacts were last looked at?
+    std::vector<Watch> watches_;  // [bodies]
+    std::vector<Index> group_;    // [bodies] that fell asleep together: the least of them
+    std::span<Stillness> still_;  // [bodies] of rest(), in the arena
+    double sinceLook_ = 0;        // seconds
+    double restH_ = 0;            // substep the impulses of sleeping contacts are of, seconds
+    std::uint32_t sleepers_ = 0;  // bodies
+    bool drowsy_ = false;         // has one fallen asleep after the last step?
+    bool woke_ = false;           // has a body woken since contacts were last looked at?
     Index movers_ = 0;
     std::vector<Index> kinematic_;  // bodies
 };

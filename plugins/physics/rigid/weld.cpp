@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 namespace jet::physics {
 
@@ -63,8 +64,8 @@ std::uint64_t sideKey(Index from, Index to) { return static_cast<std::uint64_t>(
 class Welder {
 public:
     Welder(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const State& state,
-           std::vector<PartOutline>& outlines, double grain)
-        : parts_(parts), bodies_(bodies), state_(state), outlines_(outlines), places_(grain)
+           std::vector<PartOutline>& outlines, Column<std::uint32_t>& outlineOf, double grain)
+        : parts_(parts), bodies_(bodies), state_(state), outlines_(outlines), outlineOf_(outlineOf), places_(grain)
     {
     }
 
@@ -75,7 +76,7 @@ public:
         std::vector<Index>& places = placesOf_[index];
         for (int i = 0; i < part.count; ++i) places.push_back(places_.numberOf(inScene(part, part.corners[i], true)));
         for (int i = 0; i < part.count; ++i)
-            if (outer(part, i)) sides_[sideKey(places[i], places[(i + 1) % part.count])] = index;
+            if (outer(index, i)) sides_[sideKey(places[i], places[(i + 1) % part.count])] = index;
     }
 
     void weld()
@@ -83,9 +84,8 @@ public:
         meetings_.resize(places_.size());
         for (const auto& [index, places] : placesOf_) collect(index, places);
         for (const auto& [index, places] : placesOf_) {
-            const Part& part = parts_[index];
-            for (int i = 0; i < part.count; ++i)
-                if (outer(part, i) && flush(places, i)) edit(index).inner |= static_cast<std::uint8_t>(1U << i);
+            for (int i = 0; i < parts_[index].count; ++i)
+                if (outer(index, i) && flush(places, i)) edit(index).inner |= static_cast<std::uint8_t>(1U << i);
         }
         for (const Meeting& meeting : meetings_)
             if (meeting.shared && meeting.leaving.size() == 1 && meeting.arriving.size() == 1) open(meeting);
@@ -103,9 +103,9 @@ private:
         const Vec2 own = unrotated(state_.nodes.rotation[bodies_[part.body].node], v);
         return {static_cast<float>(own.x()), static_cast<float>(own.y())};
     }
-    bool outer(const Part& part, int side) const
+    bool outer(Index part, int side) const
     {
-        return part.outline == kNoOutline || (outlines_[part.outline].inner >> side & 1) == 0;
+        return !parts_[part].outlined || (outlines_[std::as_const(outlineOf_)[part]].inner >> side & 1) == 0;
     }
     bool flush(const std::vector<Index>& places, int side) const
     {
@@ -118,7 +118,7 @@ private:
             Meeting &from = meetings_[places[i]], &to = meetings_[places[(i + 1) % part.count]];
             from.shared |= !from.corners.empty() && parts_[from.corners[0].first].body != part.body;
             from.corners.emplace_back(index, i);
-            if (!outer(part, i) || flush(places, i)) continue;
+            if (!outer(index, i) || flush(places, i)) continue;
             const Side side{index, static_cast<Index>(i), inScene(part, part.normals[i], false)};
             from.leaving.push_back(side), to.arriving.push_back(side);
         }
@@ -130,14 +130,15 @@ private:
         const auto known = edited_.find(index);
         if (known != edited_.end()) return outlines_[known->second];
         PartOutline outline;
-        if (part.outline != kNoOutline) {
-            outline = outlines_[part.outline];
+        if (part.outlined) {
+            outline = outlines_[std::as_const(outlineOf_)[index]];
         } else {
             for (int i = 0; i < part.count; ++i)
                 outline.before[i] = part.normals[(i + part.count - 1) % part.count], outline.after[i] = part.normals[i];
         }
-        part.outline = static_cast<std::uint32_t>(outlines_.size());
-        edited_[index] = part.outline;
+        part.outlined = true;
+        outlineOf_.cover(index + std::size_t{1});
+        outlineOf_[index] = edited_[index] = static_cast<std::uint32_t>(outlines_.size());
         outlines_.push_back(outline);
         return outlines_.back();
     }
@@ -163,6 +164,7 @@ private:
     const std::vector<RigidBody>& bodies_;
     const State& state_;
     std::vector<PartOutline>& outlines_;
+    Column<std::uint32_t>& outlineOf_;  // [parts] into outlines_
     Places places_;
     std::map<Index, std::vector<Index>> placesOf_;  // part -> places of its corners
     std::unordered_map<std::uint64_t, Index> sides_;
@@ -184,15 +186,16 @@ void Weld::add(const PartOutline* outline)
 void Weld::run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const RuleBook& rules,
                const State& state, float typicalLength)
 {
-    outlines_ = own_;
-    for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outline = std::as_const(ownOf_)[p];
+    outlines_ = own_, outlineOf_ = ownOf_;
+    for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outlined = std::as_const(ownOf_)[p] != kNoOutline;
     using Kind = decltype(kindOf(rules[0]));
     std::map<Kind, std::vector<Index>> kinds;
     for (Index i = 1; i < bodies.size(); ++i)
         if (stands(bodies[i])) kinds[kindOf(rules[bodies[i].rules])].push_back(i);
     for (const auto& [kind, group] : kinds) {
         if (group.size() < 2) continue;
-        Welder welder(parts, bodies, state, outlines_, std::max(kNear * static_cast<double>(typicalLength), 1e-9));
+        const double grain = std::max(kNear * static_cast<double>(typicalLength), 1e-9);
+        Welder welder(parts, bodies, state, outlines_, outlineOf_, grain);
         for (const Index body : group)
             for (Index p = 0; p < bodies[body].partCount; ++p) welder.add(bodies[body].firstPart + p);
         welder.weld();

@@ -19,15 +19,20 @@ public:
     void run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const RuleBook&, const State&,
              float typicalLength);
 
-    const PartOutline* outlineOf(const Part& part) const
+    /// Null for a part that is all outside.
+    const PartOutline* outlineOf(std::size_t part) const
     {
-        return part.outline == kNoOutline ? nullptr : &outlines_[part.outline];
+        const std::uint32_t at = outlineOf_[part];
+        return at == kNoOutline ? nullptr : &outlines_[at];
     }
     std::size_t bytes() const { return (own_.capacity() + outlines_.capacity()) * sizeof(PartOutline); }
 
 private:
+    static constexpr std::uint32_t kNoOutline = 0xffffffffU;
+
     std::vector<PartOutline> own_, outlines_;
-    Column<std::uint32_t> ownOf_{kNoOutline};  // [parts] into own_; up to the last that has one
+    // [parts] into own_ and outlines_; up to the last that has one.
+    Column<std::uint32_t> ownOf_{kNoOutline}, outlineOf_{kNoOutline};
     std::size_t parts_ = 0;
 };
 

@@ -62,6 +62,29 @@ TEST(LiveChanges, FrictionChangesUnderABoxThatRests)
     EXPECT_NEAR(world->bodies().velocity[sliding].x(), (60 - 0.2 * 100) * 1, 1) << "a = g (sin - mu cos)";
 }
 
+/// Boxes of one size: their own boxes met before, and do not come to meet again.
+TEST(LiveChanges, AStackStandsWhenItsTouchesAreFoundAfresh)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 100};
+    settings.materials = {{0.9, 0, true}};
+    auto world = JetPhysics().createWorld(settings);
+    world->addRigidBody(ground(0, 20000));
+    for (int i = 0; i < 4; ++i) world->addRigidBody(box({0, -5.0 - 10 * i}, 10, 10));
+    run(*world, 0.5);
+    settings.materials = {{0.8, 0, true}};
+    world->setSettings(settings);
+    run(*world, 0.5);
+    EXPECT_NEAR(world->bodies().position[4].y(), -35, 0.3) << "after another table of materials";
+    settings.gravity = {0, 0}, settings.findCollisions = false;
+    world->setSettings(settings);
+    run(*world, 0.1);
+    settings.gravity = {0, 100}, settings.findCollisions = true;
+    world->setSettings(settings);
+    run(*world, 0.5);
+    EXPECT_NEAR(world->bodies().position[4].y(), -35, 0.3) << "after nothing was sought";
+}
+
 TEST(LiveChanges, AMassCountsInEveryKindOfBody)
 {
     const auto make = [](bool wanted) {

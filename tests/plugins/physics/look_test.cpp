@@ -192,8 +192,8 @@ void lookTogether(const Looker& looker, World& world, const Index (&which)[8], i
 {
     int mostA = 1, mostB = 1;
     for (const Index i : which) {
-        mostA = std::max(mostA, world.parts[world.contacts[i].partA].count);
-        mostB = std::max(mostB, world.parts[world.contacts[i].partB].count);
+        mostA = std::max<int>(mostA, world.parts[world.contacts[i].partA].count);
+        mostB = std::max<int>(mostB, world.parts[world.contacts[i].partB].count);
     }
     if (kind == 0) looker.circles(world.input(), which, seen);
     if (kind == 1) looker.discs(world.input(), which, mostA, seen);

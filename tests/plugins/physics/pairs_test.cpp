@@ -28,11 +28,18 @@ Pairs meeting(const std::vector<FatBox>& boxes)
     return pairs;
 }
 
-Pairs sweep(PairSweep& pairs)
+void begin(PairSweep& pairs, Arena& arena)
+{
+    arena.reset();
+    pairs.open(arena);
+}
+
+/// What is found, and ready for more moves.
+Pairs sweep(PairSweep& pairs, Arena& arena)
 {
     Pairs found;
-    Arena arena;
     pairs.sweep(arena, [&](Index a, Index b) { EXPECT_TRUE(found.insert({a, b}).second); });
+    begin(pairs, arena);
     return found;
 }
 
@@ -46,10 +53,12 @@ TEST(Pairs, WhatComesToMeetIsFoundOnceAndNothingElse)
         return around(in(-far, far), in(-far, far), size * in(0.2, 1), size * in(0.2, 1));
     };
     PairSweep pairs;
+    Arena arena;
     std::vector<FatBox> boxes(500);
     pairs.resize(boxes.size(), 1);
+    begin(pairs, arena);
     for (Index i = 0; i < boxes.size(); ++i) pairs.move(i, boxes[i] = anyBox());
-    EXPECT_EQ(sweep(pairs), meeting(boxes));
+    EXPECT_EQ(sweep(pairs, arena), meeting(boxes));
     for (int round = 0; round < 60; ++round) {
         const Pairs before = meeting(boxes);
         // Where few are moved the cells are not filled again; in turns with many.
@@ -68,7 +77,7 @@ TEST(Pairs, WhatComesToMeetIsFoundOnceAndNothingElse)
         Pairs fresh;
         const Pairs now = meeting(boxes);
         std::set_difference(now.begin(), now.end(), before.begin(), before.end(), std::inserter(fresh, fresh.end()));
-        EXPECT_EQ(sweep(pairs), fresh) << round;
+        EXPECT_EQ(sweep(pairs, arena), fresh) << round;
         EXPECT_FALSE(pairs.anyMoved());
     }
 }
@@ -76,48 +85,55 @@ TEST(Pairs, WhatComesToMeetIsFoundOnceAndNothingElse)
 TEST(Pairs, WhatIsMuchLongerIsFoundEachTimeSinceItsBoxMeetsBeforeItDoes)
 {
     PairSweep pairs;
+    Arena arena;
     pairs.resize(3, 1);
+    begin(pairs, arena);
     pairs.setReach(0, 10), pairs.setReach(1, 1), pairs.setReach(2, 4);
     pairs.move(0, around(0, 0, 14, 14));
     pairs.move(1, around(6, -6, 2, 2));
     pairs.move(2, around(-3, 3, 6, 6));
-    EXPECT_EQ(sweep(pairs), (Pairs{{0, 1}, {0, 2}}));
+    EXPECT_EQ(sweep(pairs, arena), (Pairs{{0, 1}, {0, 2}}));
     for (const float x : {5.9F, 5.8F}) {
         pairs.move(1, around(x, -6, 2, 2)), pairs.move(2, around(-x / 2, 3, 6, 6));
-        EXPECT_EQ(sweep(pairs), (Pairs{{0, 1}})) << "but what is not, only when it comes";
+        EXPECT_EQ(sweep(pairs, arena), (Pairs{{0, 1}})) << "but what is not, only when it comes";
     }
 }
 
 TEST(Pairs, AGridThatIsSpreadTooFarFindsTheSame)
 {
     PairSweep pairs;
+    Arena arena;
     std::vector<FatBox> boxes;
     for (int i = 0; i < 60; ++i) boxes.push_back(around(1e5 * (i / 3) + 0.4 * (i % 3), -1e5 * (i / 3), 1, 1));
     pairs.resize(boxes.size(), 1);
+    begin(pairs, arena);
     for (Index i = 0; i < boxes.size(); ++i) pairs.move(i, boxes[i]);
-    EXPECT_EQ(sweep(pairs), meeting(boxes));
+    EXPECT_EQ(sweep(pairs, arena), meeting(boxes));
 }
 
 TEST(Pairs, OnlyWhatMeetsAPieceOfALongPartMeetsIt)
 {
     PairSweep pairs;
+    Arena arena;
     pairs.resize(4, 1);
+    begin(pairs, arena);
     pairs.setLong(0);
     pairs.move(0, {0, 0, 100, 100});  // a wall along the diagonal
     for (int i = 0; i < 50; ++i) pairs.piecesOf(0)->push_back(around(2 * i + 1, 2 * i + 1, 3, 3));
     pairs.move(1, around(30, 31, 1, 1));
     pairs.move(2, around(80, 20, 1, 1));
     pairs.move(3, around(52, 53, 2, 2));
-    Arena arena;
     Pairs found;
     const auto note = [&](Index a, Index b) { found.insert({a, b}); };
     pairs.sweep(arena, note);
     EXPECT_EQ(found, (Pairs{{0, 1}, {0, 3}}));
     found.clear();
+    begin(pairs, arena);
     pairs.move(2, around(80, 79, 1, 1));
     pairs.sweep(arena, note);
     EXPECT_EQ(found, (Pairs{{0, 2}})) << "from the other side, too";
     found.clear();
+    begin(pairs, arena);
     pairs.forget(3), pairs.move(3, around(52, 53, 2, 2));
     pairs.sweep(arena, note);
     EXPECT_EQ(found, (Pairs{{0, 3}})) << "and again when it was forgotten";

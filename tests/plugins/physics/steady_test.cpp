@@ -53,7 +53,7 @@ namespace jet::physics::test {
 
 namespace {
 
-constexpr double kBoxBytes = 785;  // docs/physics.md, and a little for what the heap rounds up
+constexpr double kBoxBytes = 695;  // docs/physics.md, and a little for what the heap rounds up
 
 long allocationsOf(PhysicsWorld& world, int warmUp, int steps)
 {
