@@ -63,6 +63,7 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
     for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);
+    if (first) measureClosing(dt);
     stats.broadPhaseMs += millisecondsSince(start);
 
     const auto narrow = std::chrono::steady_clock::now();
@@ -121,6 +122,21 @@ bool ContactFinder::expectHits(const State& state, double dt)
         }
     }
     return grew;
+}
+
+void ContactFinder::measureClosing(double dt)
+{
+    closing_.assign(motions_.size(), 0.0);
+    const auto carried = [](const Motion& by, const Vec2& at) {
+        return Vec2(by.velocity + by.omega * perpendicular(at - by.centre));
+    };
+    for (const BodyPair& pair : pairs_) {
+        const Motion &a = motions_[pair.a], &b = motions_[pair.b];
+        const double speed =
+            std::max((carried(b, a.centre) - a.velocity).norm(), (carried(a, b.centre) - b.velocity).norm());
+        closing_[pair.a] = std::max(closing_[pair.a], speed + a.surprise / dt);
+        closing_[pair.b] = std::max(closing_[pair.b], speed + b.surprise / dt);
+    }
 }
 
 bool ContactFinder::isSlow(const State& state, const BodyPair& pair, double dt) const

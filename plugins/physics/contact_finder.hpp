@@ -28,6 +28,8 @@ public:
     const std::vector<BodyPair>& pairs() const { return pairs_; }
     /// [nodes] where they were; nothing where nothing could meet.
     std::span<const Vec2> positions() const { return lonely_ ? std::span<const Vec2>() : position_; }
+    /// [bodies] units / s at which others may hit them until the next find(); nothing where nothing could meet.
+    std::span<const double> closing() const { return lonely_ ? std::span<const double>() : closing_; }
     /// Pairs that soft/contacts.hpp takes; ascending.
     const std::vector<BodyPair>& softPairs() const { return softPairs_; }
 
@@ -35,6 +37,7 @@ private:
     bool isSlow(const State&, const BodyPair&, double dt) const;
     void splitPairs(const State&, double dt);
     bool expectHits(const State&, double dt);
+    void measureClosing(double dt);
     void readBorders(State&);
     void predict(const State&, const WorldSettings&, double dt);
     void predictBody(const State&, Index body, const WorldSettings&, double dt, Motion&, double& budget) const;
@@ -46,6 +49,7 @@ private:
     bool lonely_ = false;  // is there nothing that could meet?
     std::vector<Motion> motions_;
     std::vector<double> budgets_;            // [bodies] units a node may stray
+    std::vector<double> closing_;            // [bodies] units / s
     std::vector<Vec2> position_, velocity_;  // [nodes] at the last find()
     Column<double> angle_{0}, omega_{0};
     std::vector<std::pair<Index, Index>> excluded_;

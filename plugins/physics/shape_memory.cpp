@@ -133,7 +133,7 @@ soft::Cloud ShapeMemory::cloudOf(State& state, const Lattice& lattice)
     return {position_[0].data(), velocity_[0].data(), mass_.data(), lattice.rest[0].data(), count};
 }
 
-void ShapeMemory::look(State& state, double dt)
+void ShapeMemory::look(State& state, double dt, std::span<const double> closing)
 {
     for (Lattice& lattice : lattices_) {
         // What is nailed down has no shape of its own; neither has what flows.
@@ -141,7 +141,8 @@ void ShapeMemory::look(State& state, double dt)
         if (lattice.relaxed) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);
-        lattice.relaxed = std::sqrt(stray.off) + std::sqrt(stray.speed) * dt < kRelaxed * lattice.tolerance;
+        const double speed = std::sqrt(stray.speed) + (closing.empty() ? 0 : closing[lattice.body]);
+        lattice.relaxed = std::sqrt(stray.off) + speed * dt < kRelaxed * lattice.tolerance;
     }
 }
 

@@ -26,9 +26,10 @@ public:
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
     void use(const soft::CloudKernels& kernels) { kernels_ = &kernels; }
-    /// Once a step, before its substeps: bodies that cannot come near their tolerance within dt are left out of it,
-    /// unless something hits them: then the next step sees it.
-    void look(State&, double dt);
+    /// Once a step, before its substeps: bodies that cannot come near their tolerance within dt are left out of it.
+    /// `closing`: [bodies] units / s at which something may hit them meanwhile; empty: nothing can. One that is hit
+    /// must not be left out: seen only when it is crushed already, it would get what it costs to crush it as a present.
+    void look(State&, double dt, std::span<const double> closing);
     /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
     void apply(State&, const SoftSprings&, double h);
 

@@ -150,7 +150,8 @@ void World::substep(double h, int index, int count)
         const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
         soft::applyPressure(state_, h);
-        if (index == 0 && !plain_) shapes_.look(state_, count * h);
+        if (index == 0 && !plain_)
+            shapes_.look(state_, count * h, settings_.findCollisions ? finder_.closing() : std::span<const double>());
         if (!plain_) shapes_.apply(state_, springs_, h);
         if (!plain_) actuators_.applySprings(state_, h, backwards);
         if (plain_) refuseExplosion();

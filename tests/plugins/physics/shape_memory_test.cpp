@@ -324,6 +324,26 @@ TEST(ShapeMemory, PiecesOfOneBodyKeepTheirShapesNotTheirPlaces)
         EXPECT_NEAR((pointsOf(*world, 0)[i] - apart(def.particles[i])).norm(), 0, 1e-4);  // lengths: single
 }
 
+/// Long steps: the ball falls, is stopped and is pressed flat within one of them, wherever in it the ground comes.
+TEST(ShapeMemory, ABallThatIsHitWithinALongStepBouncesNoHigherThanItFell)
+{
+    constexpr double kLongStep = 1.0 / 30;
+    for (double height = 272; height < 275; height += 0.3) {
+        SoftBodyDef def = defaultBall({0, -height}, 13.4, 6900);
+        for (SpringDef& spring : def.springs) spring.kd = 100;
+        for (double& mass : def.masses) mass *= 8;
+        auto world = makeWorld({0, kGravity});
+        const BodyHandle ball = world->addSoftBody(def);
+        world->addRigidBody(simple(ground(0)));
+        double highest = 1e9;
+        for (int i = 0; i < 200; ++i) {
+            world->step(kLongStep);
+            if (world->bodies().velocity[ball].y() < 0) highest = std::min(highest, world->bodies().position[ball].y());
+        }
+        EXPECT_GT(highest, -height) << "fell from " << height;
+    }
+}
+
 TEST(ShapeMemory, AFoldedBodyIsRestoredBitForBit)
 {
     const SoftBodyDef def = defaultBall({0, -60}, 30);
