@@ -112,8 +112,8 @@ struct Caster {
 
 std::optional<CastHit> World::rayCast(const Vec2& from, const Vec2& to, const QueryFilter& filter) const
 {
-    requirePlace("a ray's start", from);
-    requirePlace("a ray's end", to);
+    checks().place("a ray", "start", from);
+    checks().place("a ray", "end", to);
     const b2Vec2 a = metres(from), b = metres(to);
     if (!((b - a).LengthSquared() > 0)) return std::nullopt;
     NearestRay ray(stage_->bodies(), filter);
@@ -123,8 +123,8 @@ std::optional<CastHit> World::rayCast(const Vec2& from, const Vec2& to, const Qu
 
 std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, const QueryFilter& filter) const
 {
-    validate(shape, false);
-    requirePlace("a cast shape's way", way);
+    checks().check("a cast", shape, false);
+    checks().place("a cast", "way", way);
     const Caster caster(shape);
     Box swept = caster.box;
     swept.extend(Box(caster.box.min + way, caster.box.max + way));
@@ -157,8 +157,8 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
 
 std::vector<BodyHandle> World::overlapping(const Box& box, const QueryFilter& filter) const
 {
-    requirePlace("a box's corner", box.min);
-    requirePlace("a box's corner", box.max);
+    checks().place("a box", "first corner", box.min);
+    checks().place("a box", "second corner", box.max);
     const ShapeDef area{
         ShapeDef::Kind::Polygon, {box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}}, 0};
     const Caster caster(area);
@@ -184,8 +184,8 @@ std::vector<BodyHandle> World::overlapping(const Box& box, const QueryFilter& fi
 
 std::optional<CastHit> World::nearest(const Vec2& point, double reach, const QueryFilter& filter) const
 {
-    requirePlace("a query's point", point);
-    requireFinite("a query's reach", {reach});
+    checks().place("a query", "point", point);
+    checks().atLeast("a query", "reach", reach, 0);
     if (!(reach > 0)) return std::nullopt;
     b2CircleShape dot;
     dot.m_p = metres(point);

@@ -2,28 +2,30 @@
 // item.
 #pragma once
 
-#include <jet/physics.hpp>
+#include <jet/physics_checks.hpp>
 #include <jet/result.hpp>
 
-#include <initializer_list>
 #include <string>
-#include <string_view>
 
 namespace jet::box2d {
 
-[[noreturn]] void fail(std::string message);
-void requireFinite(std::string_view what, std::initializer_list<double> values);
-void requireFinite(std::string_view what, const Vec2& value);
-/// A place Box2D's floats can tell apart from its neighbours.
-void requirePlace(std::string_view what, const Vec2& at);
-void requireBelow(std::string_view what, std::size_t index, std::size_t count);
+/// Places are in scene units: beyond 10,000,000, a float has less than a unit of resolution.
+inline const PhysicsChecks& checks()
+{
+    static const PhysicsChecks all("Box2D", {1e7, 1e15});
+    return all;
+}
 
-void validate(const WorldSettings&);
-void validate(const BodyCommon&, const WorldSettings&);
-void validate(const RigidBodyDef&, const WorldSettings&);
-void validate(const ShapeDef&, bool fixed);
-void validate(const Anchor&, std::size_t bodyCount);
-void validate(const JointDef&, std::size_t bodyCount);
-void requireSpring(std::string_view what, double rest, double ks, double kd, double tearRatio);
+[[noreturn]] inline void fail(const std::string& message) { checks().fail(message); }
+
+inline void requireBelow(std::string_view what, std::size_t index, std::size_t count)
+{
+    checks().index(what, index, count);
+}
+
+inline std::string named(std::string_view kind, std::size_t handle)
+{
+    return std::string(kind) + " " + std::to_string(handle);
+}
 
 }  // namespace jet::box2d

@@ -12,7 +12,7 @@ namespace jet::box2d {
 
 World::World(const WorldSettings& settings) : settings_(settings)
 {
-    validate(settings);
+    checks().check(settings);
     stage_ = std::make_unique<Stage>(settings);
 }
 
@@ -32,6 +32,13 @@ void World::doesSpecial(Special special)
 }
 
 namespace {
+
+/// Box2D divides by a pulley's ratio, as a float.
+void check(JointHandle handle, const JointDef& def)
+{
+    checks().check(handle, def);
+    if (def.kind == JointDef::Kind::Pulley) checks().above(named("joint", handle), "ratio", def.ratio, 1e-6);
+}
 
 /// A state from elsewhere may name what is not there.
 void requireExisting(const Stage& stage, const Entry& e)
@@ -90,47 +97,49 @@ BodyHandle World::addSoftBody(const SoftBodyDef&)
 
 BodyHandle World::addRigidBody(const RigidBodyDef& def)
 {
-    validate(def, stage_->settings());
+    checks().check(static_cast<BodyHandle>(bodyCount()), def, settings_.materialCount);
+    if (def.shapes.empty() && def.borders.empty()) fail(named("body", bodyCount()) + " needs borders or shapes.");
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<BodyHandle>(bodyCount() - 1);
 }
 
 ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 {
-    validate(def.a, bodyCount());
-    validate(def.b, bodyCount());
-    requireSpring("a spring between bodies", def.restLength, def.ks, def.kd, def.tearRatio);
+    checks().check(static_cast<ActuatorHandle>(stage_->springs().size()), def, bodyCount());
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<ActuatorHandle>(stage_->springs().size() - 1);
 }
 
 ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 {
-    for (const Anchor* anchor : {&def.a, &def.centre, &def.b}) validate(*anchor, bodyCount());
-    requireSpring("an angular spring between bodies", def.restAngle, def.ks, def.kd, 0);
+    checks().check(static_cast<ActuatorHandle>(stage_->angularSprings().size()), def, bodyCount());
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<ActuatorHandle>(stage_->angularSprings().size() - 1);
 }
 
 ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
 {
-    validate(def.at, bodyCount());
-    requireFinite("a torque", {def.value});
+    const std::string item = named("torque", stage_->torques().size());
+    checks().check(item, def.at, bodyCount());
+    checks().number(item, "value", def.value);
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<ActuatorHandle>(stage_->torques().size() - 1);
 }
 
 ActuatorHandle World::addForce(const ForceActuatorDef& def)
 {
-    validate(def.at, bodyCount());
-    requireFinite("a force", def.force);
+    const std::string item = named("force", stage_->forces().size());
+    checks().check(item, def.at, bodyCount());
+    checks().number(item, "value", def.force);
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<ActuatorHandle>(stage_->forces().size() - 1);
 }
 
 JointHandle World::addJoint(const JointDef& def)
 {
-    validate(def, bodyCount());
+    const auto handle = static_cast<JointHandle>(jointCount());
+    checks().checkAnchors(handle, def, bodyCount());
+    check(handle, def);
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<JointHandle>(jointCount() - 1);
 }
@@ -144,55 +153,55 @@ void World::step(double dt)
 void World::setTorque(ActuatorHandle torque, double value)
 {
     requireBelow("torque", torque, stage_->torques().size());
-    requireFinite("a torque", {value});
+    checks().number(named("torque", torque), "value", value);
     does({Deed::SetTorque, torque, 1, 0, value, 0});
 }
 
 void World::setForce(ActuatorHandle force, const Vec2& value)
 {
     requireBelow("force", force, stage_->forces().size());
-    requireFinite("a force", value);
+    checks().number(named("force", force), "value", value);
     does({Deed::SetForce, force, 1, 0, value.x(), value.y()});
 }
 
 void World::applyForce(BodyHandle body, const Vec2& force)
 {
     requireBelow("body", body, bodyCount());
-    requireFinite("a force", force);
+    checks().number(named("body", body), "force", force);
     does({Deed::ApplyForce, body, 1, 0, force.x(), force.y()});
 }
 
 void World::applyImpulse(BodyHandle body, const Vec2& impulse)
 {
     requireBelow("body", body, bodyCount());
-    requireFinite("an impulse", impulse);
+    checks().number(named("body", body), "impulse", impulse);
     does({Deed::ApplyImpulse, body, 1, 0, impulse.x(), impulse.y()});
 }
 
 void World::setVelocity(BodyHandle body, const Vec2& velocity)
 {
     requireBelow("body", body, bodyCount());
-    requireFinite("a velocity", velocity);
+    checks().number(named("body", body), "velocity", velocity);
     does({Deed::SetVelocity, body, 1, 0, velocity.x(), velocity.y()});
 }
 
 void World::setOmega(BodyHandle body, double omega)
 {
     requireBelow("body", body, bodyCount());
-    requireFinite("a turning rate", {omega});
+    checks().number(named("body", body), "turning rate", omega);
     does({Deed::SetOmega, body, 1, 0, omega, 0});
 }
 
 void World::setPosition(BodyHandle body, const Vec2& centre)
 {
     requireBelow("body", body, bodyCount());
-    requirePlace("a position", centre);
+    checks().place(named("body", body), "position", centre);
     does({Deed::SetPosition, body, 1, 0, centre.x(), centre.y()});
 }
 
 void World::setGravity(const Vec2& gravity)
 {
-    requireFinite("gravity", gravity);
+    checks().number("the world", "gravity", gravity);
     does({Deed::SetGravity, 0, 1, 0, gravity.x(), gravity.y()});
 }
 
@@ -200,7 +209,7 @@ bool World::springAlive(BodyHandle, std::uint32_t) const { fail("soft bodies are
 
 void World::setSettings(const WorldSettings& settings)
 {
-    validate(settings);
+    checks().check(settings);
     if (settings.materialCount != settings_.materialCount)
         fail("the number of materials cannot change while the world runs.");
     doesSpecial([settings](Stage& stage) { stage.setSettings(settings); });
@@ -209,15 +218,14 @@ void World::setSettings(const WorldSettings& settings)
 void World::setBody(BodyHandle body, const BodyCommon& common)
 {
     requireBelow("body", body, bodyCount());
-    validate(common, settings_);
+    checks().check(body, common, settings_.materialCount);
     doesSpecial([body, common](Stage& stage) { stage.setBody(body, common); });
 }
 
 void World::setMass(BodyHandle body, double mass)
 {
     requireBelow("body", body, bodyCount());
-    requireFinite("a rigid body's mass", {mass});
-    if (!(mass > 0)) fail("a rigid body's mass must be greater than 0.");
+    checks().checkMass(body, mass);
     does({Deed::SetMass, body, 1, 0, mass, 0});
 }
 
@@ -232,14 +240,16 @@ void World::setJoint(JointHandle joint, const JointDef& def)
     requireBelow("joint", joint, jointCount());
     JointDef whole = def;
     whole.a = stage_->joints()[joint].def.a, whole.b = stage_->joints()[joint].def.b;
-    validate(whole, bodyCount());
+    check(joint, whole);
     doesSpecial([joint, whole](Stage& stage) { stage.setJoint(joint, whole); });
 }
 
 void World::setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio)
 {
     requireBelow("spring", spring, stage_->springs().size());
-    requireSpring("a spring between bodies", restLength, ks, kd, tearRatio);
+    const std::string item = named("spring", spring);
+    checks().number(item, "rest length", restLength);
+    checks().spring(item, ks, kd, tearRatio);
     doesSpecial([=](Stage& stage) { stage.setSpring(spring, restLength, ks, kd, tearRatio); });
 }
 
@@ -252,16 +262,17 @@ JointState World::joint(JointHandle joint) const
 void World::setMotor(JointHandle joint, bool driven, double speed)
 {
     requireBelow("joint", joint, jointCount());
-    requireFinite("a motor's speed", {speed});
+    checks().number(named("joint", joint), "motor speed", speed);
     does({Deed::SetMotor, joint, 1, driven, speed, 0});
 }
 
 void World::setJointTarget(JointHandle joint, const Vec2& target)
 {
     requireBelow("joint", joint, jointCount());
-    requirePlace("a joint's target", target);
+    checks().place(named("joint", joint), "target", target);
     const Joint& found = stage_->joints()[joint];
-    if (!found.groundA && !found.groundB) fail("only a joint with the background has a target.");
+    if (!found.groundA && !found.groundB)
+        fail(named("joint", joint) + ": only a joint with the background has a target.");
     does({Deed::SetJointTarget, joint, 1, 0, target.x(), target.y()});
 }
 

@@ -17,6 +17,7 @@ public:
     Index torqueCount() const { return static_cast<Index>(torques_.size()); }
     Index forceCount() const { return static_cast<Index>(forces_.size()); }
     Index springCount() const { return static_cast<Index>(springs_.size()); }
+    Index angularSpringCount() const { return static_cast<Index>(angularSprings_.size()); }
     /// restLength < 0: as it is. What is torn stays torn.
     void setSpring(ActuatorHandle, double restLength, double ks, double kd, double tearRatio);
     void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }

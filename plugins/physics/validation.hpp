@@ -1,30 +1,28 @@
 // What is refused before it can do harm, with a sentence for the person who wrote the scene.
 #pragma once
 
-#include <jet/physics.hpp>
+#include <jet/physics_checks.hpp>
 #include <jet/result.hpp>
 
-#include <initializer_list>
-#include <string_view>
+#include <string>
 
 namespace jet::physics {
 
-void requireFinite(std::string_view what, const Vec2&);
-void requirePlace(std::string_view what, const Vec2&);
-void requireFinite(std::string_view what, std::initializer_list<double> values);
+inline const PhysicsChecks& checks()
+{
+    static const PhysicsChecks all("Physics", {});
+    return all;
+}
 
-void validate(const WorldSettings&);
-void validate(const BodyCommon&, const WorldSettings&);
-void validate(const SoftBodyDef&, const WorldSettings&);
-void validate(const RigidBodyDef&, const WorldSettings&);
-void validate(const ShapeDef&);
-void validate(const SoftMatter&);
-void validate(const ForceFieldDef&);
-void validate(const Anchor&, std::size_t bodyCount);
-void requireSpring(std::string_view what, double restLength, double ks, double kd, double tearRatio);
-/// All but its anchors.
-void validateJoint(const JointDef&);
 /// Handles and indices that the caller made up.
-void requireBelow(std::string_view what, std::size_t index, std::size_t count);
+inline void requireBelow(std::string_view what, std::size_t index, std::size_t count)
+{
+    checks().index(what, index, count);
+}
+
+inline std::string named(std::string_view kind, std::size_t handle)
+{
+    return std::string(kind) + " " + std::to_string(handle);
+}
 
 }  // namespace jet::physics

@@ -11,7 +11,7 @@ namespace jet::physics {
 
 World::World(const WorldSettings& settings) : settings_(settings)
 {
-    validate(settings);
+    checks().check(settings);
     if (settings.method == Method::SemiImplicitEuler) settings_.substeps = 1;
     const bool avx2 = settings.simd != Simd::Sse2 && soft::hasAvx2();
     springs_.use(avx2 ? soft::kernelsAvx2() : soft::kernelsSse2());
@@ -83,9 +83,9 @@ double typicalLength(const Region& region, const Box& bounds)
 
 BodyHandle World::addSoftBody(const SoftBodyDef& def)
 {
-    validate(def, settings_);
-    outlineAll();
     const auto handle = static_cast<BodyHandle>(state_.bodies.size());
+    checks().check(handle, def, settings_.materialCount);
+    outlineAll();
     BodyRecord& body = newBody(def.common, false);
     body.soft = std::make_unique<SoftRecord>();
     SoftRecord& soft = *body.soft;
@@ -135,8 +135,8 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
 
 BodyHandle World::addRigidBody(const RigidBodyDef& def)
 {
-    validate(def, settings_);
     const auto handle = static_cast<BodyHandle>(state_.bodies.size());
+    checks().check(handle, def, settings_.materialCount);
     BodyRecord& body = newBody(def.common, true);
     body.nodes.count = 1;
     Nodes& nodes = state_.nodes;
@@ -231,26 +231,9 @@ BodyHandle World::finishBody(const BodyCommon& common)
     return handle;
 }
 
-namespace {
-
-void validate(const SpringActuatorDef& def, std::size_t bodies)
-{
-    physics::validate(def.a, bodies);
-    physics::validate(def.b, bodies);
-    requireSpring("a spring between bodies", def.restLength, def.ks, def.kd, def.tearRatio);
-}
-
-void validate(const AngularSpringActuatorDef& def, std::size_t bodies)
-{
-    for (const Anchor* anchor : {&def.a, &def.centre, &def.b}) physics::validate(*anchor, bodies);
-    requireSpring("an angular spring between bodies", def.restAngle, def.ks, def.kd, 0);
-}
-
-}  // namespace
-
 ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 {
-    validate(def, bodyCount());
+    checks().check(actuators_.springCount(), def, bodyCount());
     wakeHeld(def.a), wakeHeld(def.b);
     rate_ = -1;
     return actuators_.add(state_, def);
@@ -258,7 +241,7 @@ ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 
 ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 {
-    validate(def, bodyCount());
+    checks().check(actuators_.angularSpringCount(), def, bodyCount());
     wakeHeld(def.a), wakeHeld(def.centre), wakeHeld(def.b);
     rate_ = -1;
     return actuators_.add(state_, def);
@@ -266,23 +249,25 @@ ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 
 ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
 {
-    physics::validate(def.at, bodyCount());
-    requireFinite("a torque", {def.value});
+    const std::string item = named("torque", actuators_.torqueCount());
+    checks().check(item, def.at, bodyCount());
+    checks().number(item, "value", def.value);
     wakeHeld(def.at);
     return actuators_.add(state_, def);
 }
 
 ActuatorHandle World::addForceField(const ForceFieldDef& def)
 {
-    physics::validate(def);
+    checks().check(fields_.count(), def);
     rigid_.wakeAll(state_);
     return fields_.add(def);
 }
 
 ActuatorHandle World::addForce(const ForceActuatorDef& def)
 {
-    physics::validate(def.at, bodyCount());
-    requireFinite("a force", def.force);
+    const std::string item = named("force", actuators_.forceCount());
+    checks().check(item, def.at, bodyCount());
+    checks().number(item, "value", def.force);
     wakeHeld(def.at);
     return actuators_.add(state_, def);
 }

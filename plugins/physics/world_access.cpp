@@ -35,7 +35,7 @@ bool World::touching(BodyHandle a, BodyHandle b) const
 void World::setTorque(ActuatorHandle torque, double value)
 {
     requireBelow("torque", torque, actuators_.torqueCount());
-    requireFinite("a torque", {value});
+    checks().number(named("torque", torque), "value", value);
     const Index body = actuators_.bodyOfTorque(torque);
     if (body != kNone && actuators_.torque(torque) != value) rigid_.wake(state_, body);
     actuators_.setTorque(torque, value);
@@ -44,7 +44,7 @@ void World::setTorque(ActuatorHandle torque, double value)
 void World::setForce(ActuatorHandle force, const Vec2& value)
 {
     requireBelow("force", force, actuators_.forceCount());
-    requireFinite("a force", value);
+    checks().number(named("force", force), "value", value);
     const Index body = actuators_.bodyOfForce(force);
     if (body != kNone && actuators_.force(force) != value) rigid_.wake(state_, body);
     actuators_.setForce(force, value);
@@ -53,7 +53,7 @@ void World::setForce(ActuatorHandle force, const Vec2& value)
 void World::applyForce(BodyHandle handle, const Vec2& force)
 {
     requireBelow("body", handle, bodyCount());
-    requireFinite("a force", force);
+    checks().number(named("body", handle), "force", force);
     const BodyRecord& body = state_.bodies[handle];
     if (force == Vec2(0, 0)) return;
     pushed_ = true;
@@ -66,7 +66,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
 void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
 {
     requireBelow("body", handle, bodyCount());
-    requireFinite("an impulse", impulse);
+    checks().number(named("body", handle), "impulse", impulse);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     if (impulse != Vec2(0, 0)) rigid_.wake(state_, handle);
@@ -78,7 +78,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
 void World::setVelocity(BodyHandle handle, const Vec2& velocity)
 {
     requireBelow("body", handle, bodyCount());
-    requireFinite("a velocity", velocity);
+    checks().number(named("body", handle), "velocity", velocity);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 now =
@@ -93,7 +93,7 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
 void World::setOmega(BodyHandle handle, double omega)
 {
     requireBelow("body", handle, bodyCount());
-    requireFinite("a turning rate", {omega});
+    checks().number(named("body", handle), "turning rate", omega);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
     const soft::MassSums sums = body.rigid ? soft::MassSums() : soft::freeSums(state_.nodes, body.nodes);
@@ -113,7 +113,7 @@ void World::setOmega(BodyHandle handle, double omega)
 void World::setPosition(BodyHandle handle, const Vec2& centre)
 {
     requireBelow("body", handle, bodyCount());
-    requirePlace("a position", centre);
+    checks().place(named("body", handle), "position", centre);
     reportIfAsked();  // of where things were
     const BodyRecord& body = state_.bodies[handle];
     const Vec2 shift =
@@ -130,7 +130,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
 
 void World::setGravity(const Vec2& gravity)
 {
-    requireFinite("gravity", gravity);
+    checks().number("the world", "gravity", gravity);
     if (gravity != settings_.gravity) rigid_.wakeAll(state_);
     settings_.gravity = gravity;
 }

@@ -6,7 +6,7 @@ namespace jet::physics {
 
 void World::setSettings(const WorldSettings& settings)
 {
-    validate(settings);
+    checks().check(settings);
     if (settings.materialCount != settings_.materialCount)
         throw Failure(Error("Physics: the count of materials cannot change while the world runs; it is " +
                             std::to_string(settings_.materialCount) + "."));
@@ -26,8 +26,7 @@ void World::setSettings(const WorldSettings& settings)
 void World::setMass(BodyHandle handle, double mass)
 {
     requireBelow("body", handle, bodyCount());
-    requireFinite("a mass", {mass});
-    if (!(mass > 0)) throw Failure(Error("Physics: a body's mass must be greater than 0."));
+    checks().checkMass(handle, mass);
     BodyRecord& body = state_.bodies[handle];
     const double before = state_.massOf(body);
     if (mass == before) return;
@@ -49,7 +48,7 @@ void World::setMass(BodyHandle handle, double mass)
 void World::setBody(BodyHandle handle, const BodyCommon& common)
 {
     requireBelow("body", handle, bodyCount());
-    validate(common, settings_);
+    checks().check(handle, common, settings_.materialCount);
     BodyRecord& body = state_.bodies[handle];
     if (common.fixed != body.fixed)
         throw Failure(Error("Physics: body " + std::to_string(handle) +
@@ -118,7 +117,7 @@ void World::enableSoft(BodyRecord& body)
 void World::setJoint(JointHandle handle, const JointDef& def)
 {
     const JointAt at = jointAt(handle);
-    validateJoint(def);
+    checks().check(handle, def);
     wakeHeld(at.soft ? softJoints_.def(at.index) : rigid_.joint(at.index).def);
     if (at.soft) {
         softJoints_.set(at.index, def);
@@ -131,7 +130,9 @@ void World::setJoint(JointHandle handle, const JointDef& def)
 void World::setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio)
 {
     requireBelow("spring", spring, actuators_.springCount());
-    requireSpring("a spring between bodies", restLength, ks, kd, tearRatio);
+    const std::string item = named("spring", spring);
+    checks().number(item, "rest length", restLength);
+    checks().spring(item, ks, kd, tearRatio);
     actuators_.visitSpring(spring, [&](Index a, Index b) {
         for (const Index body : {a, b})
             if (body != kNone) rigid_.wake(state_, body);

@@ -13,30 +13,30 @@ const Queries& World::queries() const
 
 std::optional<CastHit> World::rayCast(const Vec2& from, const Vec2& to, const QueryFilter& filter) const
 {
-    requirePlace("a ray's start", from);
-    requirePlace("a ray's end", to);
+    checks().place("a ray", "start", from);
+    checks().place("a ray", "end", to);
     return queries().rayCast(state_, from, to - from, filter);
 }
 
 std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, const QueryFilter& filter) const
 {
-    validate(shape);
-    requirePlace("a shape's way", way);
+    checks().check("a cast", shape, true);
+    checks().place("a cast", "way", way);
     return queries().shapeCast(state_, shape, way, filter);
 }
 
 std::vector<BodyHandle> World::overlapping(const Box& box, const QueryFilter& filter) const
 {
     if (box.isNull()) return {};
-    requirePlace("a box's corner", box.min);
-    requirePlace("a box's corner", box.max);
+    checks().place("a box", "first corner", box.min);
+    checks().place("a box", "second corner", box.max);
     return queries().overlapping(state_, box, filter);
 }
 
 std::optional<CastHit> World::nearest(const Vec2& point, double reach, const QueryFilter& filter) const
 {
-    requirePlace("a query's point", point);
-    requireFinite("a query's reach", {reach});
+    checks().place("a query", "point", point);
+    checks().atLeast("a query", "reach", reach, 0);
     return queries().nearest(state_, point, reach, filter);
 }
 

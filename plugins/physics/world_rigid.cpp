@@ -87,22 +87,21 @@ StepStats World::stats() const
 
 JointHandle World::addJoint(const JointDef& def)
 {
+    const auto handle = static_cast<JointHandle>(jointsAt_.size());
+    checks().checkAnchors(handle, def, bodyCount());
+    checks().check(handle, def);
     bool soft = false;
-    for (const Anchor* anchor : {&def.a, &def.b}) {
-        validate(*anchor, bodyCount());
+    for (const Anchor* anchor : {&def.a, &def.b})
         soft |= anchor->body != kNoHandle && !state_.bodies[anchor->body].rigid;
-    }
     for (const Anchor* anchor : {&def.a, &def.b})
         if (anchor->body != kNoHandle && !soft && !rigid_.has(anchor->body))
-            throw Failure(Error("Physics: body " + std::to_string(anchor->body) +
-                                " has no simple rigid shape; joints hold those, soft bodies and the background. Give "
-                                "it shapes, or use a spring between bodies."));
-    if (def.a.body == def.b.body) throw Failure(Error("Physics: a joint needs two different bodies."));
-    validateJoint(def);
+            checks().fail("joint " + std::to_string(handle) + ": body " + std::to_string(anchor->body) +
+                          " has no simple rigid shape; joints hold those, soft bodies and the background. Give it "
+                          "shapes, or use a spring between bodies.");
     wakeHeld(def);
     jointsAt_.push_back({soft, soft ? softJoints_.add(state_, def) : rigid_.addJoint(state_, def)});
     if (soft) finder_.exclude(softJoints_.excluded());
-    return static_cast<JointHandle>(jointsAt_.size() - 1);
+    return handle;
 }
 
 World::JointAt World::jointAt(JointHandle handle) const
@@ -137,8 +136,8 @@ JointState World::joint(JointHandle handle) const
 void World::setMotor(JointHandle handle, bool driven, double speed)
 {
     const JointAt at = jointAt(handle);
+    checks().number(named("joint", handle), "motor speed", speed);
     handle = at.index;
-    requireFinite("a motor's speed", {speed});
     if (at.soft) return softJoints_.setMotor(at.index, driven, speed);
     const JointDef& def = rigid_.joint(handle).def;
     if (def.driven != driven || def.motorSpeed != speed) wakeHeld(def);
@@ -148,14 +147,14 @@ void World::setMotor(JointHandle handle, bool driven, double speed)
 void World::setJointTarget(JointHandle handle, const Vec2& target)
 {
     const JointAt at = jointAt(handle);
-    handle = at.index;
-    requirePlace("a joint's target", target);
+    const std::string item = named("joint", handle);
+    checks().place(item, "target", target);
     if (at.soft && softJoints_.setTarget(at.index, target)) return;
-    if (at.soft) throw Failure(Error("Physics: only a joint with the background has a target."));
-    const Joint& joint = rigid_.joint(handle);
-    if (joint.a != 0 && joint.b != 0) throw Failure(Error("Physics: only a joint with the background has a target."));
+    if (at.soft) checks().fail(item + ": only a joint with the background has a target.");
+    const Joint& joint = rigid_.joint(at.index);
+    if (joint.a != 0 && joint.b != 0) checks().fail(item + ": only a joint with the background has a target.");
     if ((joint.a == 0 ? joint.localA : joint.localB) != target) wakeHeld(joint.def);
-    rigid_.setTarget(handle, target);
+    rigid_.setTarget(at.index, target);
 }
 
 void World::removeJoint(JointHandle handle)

@@ -18,7 +18,7 @@ namespace {
 void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
 {
     requireBelow("force field", field, fields_.count());
-    validate(def);
+    checks().check(field, def);
     fields_.set(field, def);
     rigid_.wakeAll(state_);
 }
@@ -75,14 +75,14 @@ void World::refuseExplosion()
 
 void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
 {
-    validate(matter);
+    checks().check(handle, matter);
     softBody(handle).soft->matter = matter;
 }
 
 void World::setSprings(BodyHandle handle, double ks, double kd, double tearRatio)
 {
     softBody(handle);
-    requireSpring("the springs of a body", 0, ks, kd, tearRatio);
+    checks().spring(named("body", handle), ks, kd, tearRatio);
     springs_.set(handle, ks, kd, tearRatio);
     rate_ = -1;
 }

@@ -34,8 +34,7 @@ private:
 
 void World::step(double dt)
 {
-    requireFinite("the time step", {dt});
-    if (!(dt > 0)) throw Failure(Error("Physics: a time step must be greater than 0 seconds."));
+    checks().above("the step", "its time", dt, 0);
     if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), told_ = 0;
     rememberTouches();
     if (skipStep()) return;

@@ -23,6 +23,7 @@
 #include <jet/path.hpp>
 #include <jet/path_operations.hpp>
 #include <jet/physics.hpp>
+#include <jet/physics_checks.hpp>
 #include <jet/physics_soft.hpp>
 #include <jet/physics_view.hpp>
 #include <jet/plugin.hpp>
@@ -187,6 +188,7 @@ TYPE(jet::BodyStates)
 TYPE(jet::StepStats)
 TYPE(jet::PhysicsWorld)
 TYPE(jet::PhysicsEngine)
+TYPE(jet::PhysicsChecks)
 TYPE(jet::SoftMatter)
 TYPE(jet::ForceFieldDef)
 TYPE(jet::PhysicsMarks)

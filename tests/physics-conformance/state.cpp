@@ -98,6 +98,14 @@ Outcome oneBit(const Lab& lab)
     return holds(a->hash() != b->hash(), "the hash does not see a small push");
 }
 
+JointDef jointTo(BodyHandle body, JointDef::Kind kind)
+{
+    JointDef def;
+    def.kind = kind;
+    def.b = on(body, {0, 0});
+    return def;
+}
+
 Outcome poison(const Lab& lab)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
@@ -172,6 +180,31 @@ Outcome poison(const Lab& lab)
         {"body",
          [&] {
              world->setVelocity(12345, {0, 0});
+         }},
+        {"kind of joint that there is not", [&] { world->addJoint(jointTo(1, static_cast<JointDef::Kind>(99))); }},
+        {"axis without a direction",
+         [&] {
+             JointDef def = jointTo(1, JointDef::Kind::Prismatic);
+             def.axis = {0, 0};
+             world->addJoint(def);
+         }},
+        {"limits the wrong way round",
+         [&] {
+             JointDef def = jointTo(1, JointDef::Kind::Revolute);
+             def.lower = 1, def.upper = -1;
+             world->addJoint(def);
+         }},
+        {"shape of a cast that there is not",
+         [&] {
+             ShapeDef shape{ShapeDef::Kind::Circle, {{0, 0}}, 1};
+             shape.kind = static_cast<ShapeDef::Kind>(9);
+             world->shapeCast(shape, {1, 0});
+         }},
+        {"restitution above 1",
+         [&] {
+             WorldSettings settings;
+             settings.materials[0].restitution = 2;
+             world->setSettings(settings);
          }},
     };
     std::string taken, silent;
