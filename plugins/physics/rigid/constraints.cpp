@@ -117,13 +117,14 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
         const Index* index = &colour.index[group * kWidth];
         bool due[kWidth];
         for (std::size_t lane = 0; lane < kWidth; ++lane) {
-            due[lane] = index[lane] != kNone && (all || kPushPerSlop * (drift[g.a[lane]] + drift[g.b[lane]]) >
-                                                            static_cast<float>(g.mostPush[lane]));
+            due[lane] = index[lane] != kNone &&
+                        (all || kPushPerSlop * (drift[slotAt<Real>(g.a[lane])] + drift[slotAt<Real>(g.b[lane])]) >
+                                    static_cast<float>(g.mostPush[lane]));
             if (!due[lane]) continue;
             __builtin_prefetch(&contacts[index[lane]], 1);
             __builtin_prefetch(reinterpret_cast<const char*>(&contacts[index[lane]]) + 64, 1);
-            for (const std::int32_t slot : {g.a[lane], g.b[lane]})
-                if (slot != 0) __builtin_prefetch(&poses[domains_.bodyAt(static_cast<Index>(slot))]);
+            for (const std::int32_t far : {g.a[lane], g.b[lane]})
+                if (far != 0) __builtin_prefetch(&poses[domains_.bodyAt(slotAt<Real>(far))]);
         }
         for (std::size_t lane = 0; lane < kWidth; ++lane) {
             if (!due[lane]) continue;
@@ -336,7 +337,7 @@ void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place 
     FrictionLanes<Real>& f = colour.frictions[group];
     const auto shown = [&](Index index) {
         const RigidBody& is = collider.bodies()[index];
-        return is.moves || is.kinematic ? static_cast<std::int32_t>(domains_.slotOf(index)) : 0;
+        return is.moves || is.kinematic ? farOf<Real>(domains_.slotOf(index)) : 0;
     };
     g.a[lane] = shown(c.bodyA), g.b[lane] = shown(c.bodyB);
     const Vec2f n = turned(poseA.turn, c.normal);

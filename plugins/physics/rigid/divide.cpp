@@ -97,8 +97,8 @@ void Solver<Real>::moveToNodes(Collider& collider)
             const std::size_t to = colour.count - 1;
             copyLane(old[source], at, colour, to, bounces_);
             ContactLanes<Real>& lanes = colour.contacts[to / kWidth];
-            const auto shown = [&](Index body, std::int32_t& slot) {
-                if (slot != 0) slot = static_cast<std::int32_t>(domains_.slotOf(body));
+            const auto shown = [&](Index body, std::int32_t& far) {
+                if (far != 0) far = farOf<Real>(domains_.slotOf(body));
             };
             shown(c.bodyA, lanes.a[to % kWidth]), shown(c.bodyB, lanes.b[to % kWidth]);
             collider.places()[contact] = placeOf(which, to);

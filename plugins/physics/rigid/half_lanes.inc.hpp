@@ -130,6 +130,26 @@ JET_INLINE Halves<Real> most(const Halves<Real>& a, const Halves<Real>& b)
 using Four = HalfTypes<float>::Values;
 using Two = HalfTypes<double>::Values;
 
+/// Four values that lie side by side.
+template <class Real>
+struct RowOf {
+    typedef Four Values;
+};
+template <>
+struct RowOf<double> {
+    typedef Halves<double> Values;
+};
+template <class Real>
+using Row = typename RowOf<Real>::Values;
+template <class Real>
+JET_INLINE Row<Real> rowWith(Real x, Real y, Real z, Real w)
+{
+    if constexpr (sizeof(Real) == 4)
+        return Four{x, y, z, w};
+    else
+        return Halves<double>{{x, y}, {z, w}};
+}
+
 /// Rows of four values of eight places, or four, to four rows of as many.
 template <class Of>
 JET_INLINE void gatherRows(const Of& of, Halves<float>& x, Halves<float>& y, Halves<float>& z, Halves<float>& w)
@@ -166,7 +186,7 @@ JET_INLINE void scatterRows(BodyState<float>* bodies, const std::int32_t* index,
         const Four t0 = __builtin_shufflevector(a, b, 0, 4, 1, 5), t1 = __builtin_shufflevector(a, b, 2, 6, 3, 7);
         const Four t2 = __builtin_shufflevector(c, d, 0, 4, 1, 5), t3 = __builtin_shufflevector(c, d, 2, 6, 3, 7);
         const auto put = [&](int i, const Four& row) JET_INLINED {
-            BodyState<float>& body = bodies[at[i]];
+            BodyState<float>& body = *farFrom(bodies, at[i]);
             if (body.invMass != 0) *reinterpret_cast<Four*>(&body) = row;
         };
         put(0, __builtin_shufflevector(t0, t2, 0, 1, 4, 5)), put(1, __builtin_shufflevector(t0, t2, 2, 3, 6, 7));
@@ -174,6 +194,23 @@ JET_INLINE void scatterRows(BodyState<float>* bodies, const std::int32_t* index,
     };
     rows(index, x.low, y.low, z.low, w.low);
     rows(index + 4, x.high, y.high, z.high, w.high);
+}
+
+JET_INLINE void scatterRows(BodyState<double>* bodies, const std::int32_t* index, const Halves<double>& x,
+                            const Halves<double>& y, const Halves<double>& z, const Halves<double>& w)
+{
+    const auto put = [&](int i, const Two& first, const Two& second) JET_INLINED {
+        BodyState<double>& body = *farFrom(bodies, index[i]);
+        if (body.invMass == 0) return;
+        Two* const row = reinterpret_cast<Two*>(&body);
+        row[0] = first, row[1] = second;
+    };
+    const auto two = [&](int i, const Two& a, const Two& b, const Two& c, const Two& d) JET_INLINED {
+        put(i, __builtin_shufflevector(a, b, 0, 2), __builtin_shufflevector(c, d, 0, 2));
+        put(i + 1, __builtin_shufflevector(a, b, 1, 3), __builtin_shufflevector(c, d, 1, 3));
+    };
+    two(0, x.low, y.low, z.low, w.low);
+    two(2, x.high, y.high, z.high, w.high);
 }
 
 JET_INLINE void putFour(Halves<double>& to, int, const Halves<double>& values) { to = values; }

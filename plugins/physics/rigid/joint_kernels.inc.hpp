@@ -45,6 +45,7 @@ JET_INLINE void weigh(Joints<Real>& j, const Lanes<Real>& invMassA, const Lanes<
 
 /// Arms of four joints, and where they end. On the background, which is not turned anyhow, there is no arm, and the
 /// anchor is the place.
+template <class Real>
 struct Ends {
     Lanes<double> armX, armY, x, y;
 
@@ -53,7 +54,7 @@ struct Ends {
     {
         const Lanes<double> zero = all<double>(0);
         Lanes<double> placeX, placeY, cosine, sine;
-        gatherRows([&](int i) JET_INLINED { return &places[index[i]].x; }, placeX, placeY, cosine, sine);
+        gatherRows([&](int i) JET_INLINED { return &beside<Real>(places, index[i])->x; }, placeX, placeY, cosine, sine);
         const Mask<double> ground = (cosine == zero) & (sine == zero);
         armX = cosine * anchorX - sine * anchorY, armY = sine * anchorX + cosine * anchorY;
         x = placeX + choose<double>(ground, anchorX, armX), y = placeY + choose<double>(ground, anchorY, armY);
@@ -68,7 +69,7 @@ void startJoints(const BodyState<Real>* bodies, const BodyPlace* places, JointLa
         Joints<Real>& j = view(groups[g]);
         const Anchors<Real>& at = view(anchors[g]);
         for (int i = 0; i < Anchors<Real>::kFours; ++i) {
-            const Ends a(places, j.a + 4 * i, at.ax[i], at.ay[i]), b(places, j.b + 4 * i, at.bx[i], at.by[i]);
+            const Ends<Real> a(places, j.a + 4 * i, at.ax[i], at.ay[i]), b(places, j.b + 4 * i, at.bx[i], at.by[i]);
             const Lanes<double> errorX = b.x - a.x, errorY = b.y - a.y;
             putFour(j.startAX, i, a.armX), putFour(j.startAY, i, a.armY);
             putFour(j.startBX, i, b.armX), putFour(j.startBY, i, b.armY);
@@ -151,12 +152,17 @@ constexpr double kSine[] = {1.0 / 6227020800, -1.0 / 39916800, 1.0 / 362880, -1.
 constexpr double kCosine[] = {-1.0 / 87178291200, 1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320,
                               -1.0 / 720,         1.0 / 24,        -1.0 / 2,       1};
 
-template <class Real, std::size_t count>
-JET_INLINE Lanes<Real> polynomial(const Lanes<Real>& z, const double (&terms)[count])
+template <class Real, const auto& terms, std::size_t... after>
+JET_INLINE Lanes<Real> polynomial(const Lanes<Real>& z, std::index_sequence<after...>)
 {
     Lanes<Real> sum = all(static_cast<Real>(terms[0]));
-    for (std::size_t i = 1; i < count; ++i) sum = sum * z + static_cast<Real>(terms[i]);
+    ((sum = sum * z + static_cast<Real>(terms[after + 1])), ...);
     return sum;
+}
+template <class Real, const auto& terms>
+JET_INLINE Lanes<Real> polynomial(const Lanes<Real>& z)
+{
+    return polynomial<Real, terms>(z, std::make_index_sequence<std::size(terms) - 1>());
 }
 
 /// Those of a quarter of the angle, doubled twice; within 1e-12, and the same bits everywhere.
@@ -167,7 +173,7 @@ JET_INLINE void directionOf(const Lanes<Real>& angle, Lanes<Real>& cosine, Lanes
     constexpr Real kRounds = sizeof(Real) == 4 ? Real(12582912) : Real(6755399441055744);  // adding it rounds
     const Lanes<Real> turns = angle * (1 / kFullTurn) + kRounds - kRounds;
     const Lanes<Real> x = Real(0.25) * (angle - kFullTurn * turns), z = x * x;
-    sine = x * polynomial<Real>(z, kSine), cosine = polynomial<Real>(z, kCosine);
+    sine = x * polynomial<Real, kSine>(z), cosine = polynomial<Real, kCosine>(z);
     for (int doubled = 0; doubled < 2; ++doubled) {
         const Lanes<Real> half = sine;
         sine = 2 * half * cosine, cosine = 1 - 2 * half * half;
@@ -205,10 +211,11 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
         const Lanes<Real> perA = a.invMass * moveA.perGyration, perB = b.invMass * moveB.perGyration;
         const Lanes<Real> warmA = perA * ((j.armAX - ax) * j.impulseY - (j.armAY - ay) * j.impulseX);
         const Lanes<Real> warmB = perB * ((bx - j.armBX) * j.impulseY - (by - j.armBY) * j.impulseX);
-        for (int i = 0; i < kLanes<Real>; ++i) {
-            if (perA[i] != 0) pushes[j.a[i]].warmW += warmA[i];
-            if (perB[i] != 0) pushes[j.b[i]].warmW += warmB[i];
-        }
+        // What never moves may be in many groups, of other threads, too.
+        eachLane<Real>([&](int i) JET_INLINED {
+            if (perA[i] != 0) beside<Real>(pushes, j.a[i])->warmW += warmA[i];
+            if (perB[i] != 0) beside<Real>(pushes, j.b[i])->warmW += warmB[i];
+        });
         j.armAX = ax, j.armAY = ay, j.armBX = bx, j.armBY = by;
         weigh<Real>(j, a.invMass, b.invMass);
     }

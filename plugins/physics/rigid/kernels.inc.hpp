@@ -1,6 +1,22 @@
 // The solver's kernels, compiled once for each instruction set: kernels_sse2.cpp and kernels_avx2.cpp include this in a
 // namespace of their own. "Soft Step" (Catto 2024, https://box2d.org/posts/2024/02/solver2d/): see solver_data.hpp.
 
+/// The state that lies as far as a group says.
+template <class State>
+JET_INLINE State* farFrom(State* states, std::int32_t far)
+{
+    return reinterpret_cast<State*>(reinterpret_cast<std::uintptr_t>(states) + static_cast<std::uintptr_t>(far) * 8U);
+}
+/// What another array has for the same body.
+template <class Real, class Other>
+JET_INLINE Other* beside(Other* others, std::int32_t far)
+{
+    constexpr std::uintptr_t kEach = sizeof(Other) / kFar<Real>;
+    static_assert(sizeof(Other) % kFar<Real> == 0);
+    return reinterpret_cast<Other*>(reinterpret_cast<std::uintptr_t>(others) +
+                                    static_cast<std::uintptr_t>(far) * kEach);
+}
+
 #if defined(__AVX2__)
 #include "whole_lanes.inc.hpp"
 #else
@@ -39,6 +55,13 @@ JET_INLINE Lanes<Real> magnitude(const Lanes<Real>& value)
     return most(value, Lanes<Real>(-value));
 }
 
+/// The row that begins with the value.
+template <class Real>
+JET_INLINE Row<Real>& rowAt(Real& first)
+{
+    return *static_cast<Row<Real>*>(static_cast<void*>(&first));
+}
+
 /// The states of a group's bodies, one value of each lane together.
 template <class Real>
 struct BodyLanes {
@@ -53,29 +76,30 @@ template <class Real>
 JET_INLINE BodyLanes<Real> velocities(const BodyState<Real>* bodies, const std::int32_t* index)
 {
     BodyLanes<Real> s;
-    gatherRows([&](int i) JET_INLINED { return &bodies[index[i]].velocityX; }, s.velocityX, s.velocityY, s.spin,
-               s.invMass);
+    gatherRows([&](int i) JET_INLINED { return &farFrom(bodies, index[i])->velocityX; }, s.velocityX, s.velocityY,
+               s.spin, s.invMass);
     return s;
 }
 template <class Real>
 JET_INLINE MoveLanes<Real> moves(const BodyState<Real>* bodies, const std::int32_t* index)
 {
     MoveLanes<Real> s;
-    gatherRows([&](int i) JET_INLINED { return &bodies[index[i]].moveX; }, s.moveX, s.moveY, s.sweep, s.perGyration);
+    gatherRows([&](int i) JET_INLINED { return &farFrom(bodies, index[i])->moveX; }, s.moveX, s.moveY, s.sweep,
+               s.perGyration);
     return s;
 }
 
-JET_INLINE void scatter(BodyState<float>* bodies, const std::int32_t* index, const BodyLanes<float>& s)
+template <class Real>
+JET_INLINE void scatter(BodyState<Real>* bodies, const std::int32_t* index, const BodyLanes<Real>& s)
 {
     scatterRows(bodies, index, s.velocityX, s.velocityY, s.spin, s.invMass);
 }
-JET_INLINE void scatter(BodyState<double>* bodies, const std::int32_t* index, const BodyLanes<double>& s)
+/// Calls work(lane) for each.
+template <class Real, class Work>
+JET_INLINE void eachLane(const Work& work)
 {
-    for (int i = 0; i < kLanes<double>; ++i) {
-        BodyState<double>& body = bodies[index[i]];
-        if (body.invMass == 0) continue;
-        body.velocityX = s.velocityX[i], body.velocityY = s.velocityY[i], body.spin = s.spin[i];
-    }
+    work(0), work(1), work(2), work(3);
+    if constexpr (kLanes<Real> == 8) work(4), work(5), work(6), work(7);
 }
 
 /// An impulse along a direction with its levers; on B, and against it on A.
@@ -327,26 +351,25 @@ void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Frictio
 #include "joint_kernels.inc.hpp"
 
 template <class Real>
-void integrateVelocities(BodyState<Real>* bodies, BodyPush<Real>* pushes, std::size_t count, Real h)
+void integrateVelocities(BodyState<Real>* bodies, BodyPush<Real>* pushes, std::size_t count,
+                         const StepConstants<Real>& step)
 {
+    const Row<Real> stay = rowWith<Real>(1, 1, 1, 1),
+                    go = rowWith<Real>(step.linearKept, step.linearKept, step.angularKept, 1);
     for (std::size_t i = 0; i < count; ++i) {
-        BodyState<Real>& s = bodies[i];
-        BodyPush<Real>& p = pushes[i];
-        p.warmX += s.velocityX - p.beforeX, p.warmY += s.velocityY - p.beforeY, p.warmW += s.spin - p.beforeW;
-        s.velocityX = p.linearKept * (s.velocityX + h * p.accelerationX) + p.warmX;
-        s.velocityY = p.linearKept * (s.velocityY + h * p.accelerationY) + p.warmY;
-        s.spin = p.angularKept * (s.spin + h * p.accelerationW) + p.warmW;
-        p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.spin;
+        Row<Real>&velocity = rowAt(bodies[i].velocityX), &warm = rowAt(pushes[i].warmX),
+        &before = rowAt(pushes[i].beforeX);
+        warm += velocity - before;
+        const Row<Real>& kept = bodies[i].invMass != 0 ? go : stay;
+        before = velocity = kept * (velocity + step.h * rowAt(pushes[i].accelerationX)) + warm;
     }
 }
 
 template <class Real>
 void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
 {
-    for (std::size_t i = 0; i < count; ++i) {
-        BodyState<Real>& s = bodies[i];
-        s.moveX += h * s.velocityX, s.moveY += h * s.velocityY, s.sweep += h * s.spin;
-    }
+    const Row<Real> step = rowWith<Real>(h, h, h, 0);
+    for (std::size_t i = 0; i < count; ++i) rowAt(bodies[i].moveX) += step * rowAt(bodies[i].velocityX);
 }
 
 template <class Real>

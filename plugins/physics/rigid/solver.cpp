@@ -34,6 +34,8 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool,
     constants_.moving = softness<Real>(hertz, kContactDamping, shape.h);
     constants_.still = softness<Real>(2 * hertz, kContactDamping, shape.h);
     constants_.joint = softness<Real>(std::min(kJointHertz, kJointHertzPerSubstepRate * rate), kJointDamping, shape.h);
+    constants_.linearKept = static_cast<Real>(shape.linearKept);
+    constants_.angularKept = static_cast<Real>(shape.angularKept);
     constants_.restSpeed = static_cast<Real>(shape.restSpeed);
     kernels_ = &kernels<Real>(shape.choice);
     domains_.resize(bodies);
@@ -206,7 +208,7 @@ void Solver<Real>::run()
         for (Index i = first; i < first + count; ++i) {
             BodyState<Real>& s = states_[i];
             BodyPush<Real>& p = pushes_[i];
-            p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.spin;
+            p.beforeX = s.velocityX, p.beforeY = s.velocityY, p.beforeW = s.spin, p.invMass = s.invMass;
             if (moves(s)) s.velocityX = s.velocityY = s.spin = 0;
         }
     };
@@ -226,7 +228,7 @@ void Solver<Real>::run()
     for (int i = 0; i < shape_.substeps; ++i) {
         solveAll(true, [&](Index first, Index count) {
             if (i == 0) goOn(first, count);
-            kernels_->integrateVelocities(&states_[first], &pushes_[first], count, constants_.h);
+            kernels_->integrateVelocities(&states_[first], &pushes_[first], count, constants_);
         });
         solveAll(false,
                  [&](Index first, Index count) { kernels_->integratePositions(&states_[first], count, constants_.h); });

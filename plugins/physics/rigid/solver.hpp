@@ -18,7 +18,8 @@ namespace jet::physics {
 struct StepShape {
     double h = 0;  // seconds a substep
     int substeps = 1;
-    double restSpeed = 0;  // units / s
+    double restSpeed = 0;                    // units / s
+    double linearKept = 1, angularKept = 1;  // velocity left by damping after a substep
     KernelChoice choice = KernelChoice::Best;
 };
 
@@ -236,7 +237,12 @@ private:
             with(x);
             lanes[lane] = x;
         };
-        with(g.a[lane]), with(g.b[lane]), with(colour.index[laneAt(place)]);
+        for (std::int32_t* far : {&g.a[lane], &g.b[lane]}) {
+            Index slot = slotAt<Real>(*far);
+            with(slot);
+            *far = farOf<Real>(slot);
+        }
+        with(colour.index[laneAt(place)]);
         value(g.normalX), value(g.normalY), value(g.mostPush), value(f.friction);
         for (int k = 0; k < 2; ++k) {
             auto& p = g.points[k];

@@ -17,6 +17,10 @@
 #pragma once
 
 #include "lanes.hpp"
+#include "state.hpp"
+
+#include <iterator>
+#include <utility>
 
 namespace jet::physics {
 
@@ -34,21 +38,38 @@ struct alignas(8 * sizeof(Real)) BodyState {
     Real turn() const { return sweep * perGyration; }  // radians since the start of the step
 };
 
-/// What the body passes of a substep need beside the state.
+/// Groups name bodies by how far their states lie from the first, in units of eight bytes: addresses count in them.
 template <class Real>
-struct BodyPush {
+inline constexpr std::int32_t kFar = sizeof(BodyState<Real>) / 8;
+template <class Real>
+std::int32_t farOf(Index slot)
+{
+    return static_cast<std::int32_t>(slot) * kFar<Real>;
+}
+template <class Real>
+Index slotAt(std::int32_t far)
+{
+    return static_cast<Index>(far / kFar<Real>);
+}
+
+/// What the body passes of a substep need beside the state, in rows that match the state's velocities.
+template <class Real>
+struct alignas(4 * sizeof(Real)) BodyPush {
     Real accelerationX = 0, accelerationY = 0, accelerationW = 0;  // of gravity, forces, torques (of the spin)
-    Real linearKept = 1, angularKept = 1;                          // velocity left by damping after a substep
+    Real noAcceleration = 0;
     // Change of velocity by all accumulated impulses: warm starting without visiting the constraints again.
     Real warmX = 0, warmY = 0, warmW = 0;
+    Real noWarming = 0;
     Real beforeX = 0, beforeY = 0, beforeW = 0;  // velocity after warm starting
+    Real invMass = 0;
 };
 
-// Groups of lanes. Kernels for processors without registers of 32 bytes see them as L of their own (half_lanes.inc.hpp).
+// Groups of lanes. Kernels for processors without registers of 32 bytes see them as L of their own
+// (half_lanes.inc.hpp).
 
 template <class Real, template <class> class L = Lanes>
 struct alignas(32) ContactLanes {
-    std::int32_t a[kLanes<Real>], b[kLanes<Real>];  // bodies; 0: never moves
+    std::int32_t a[kLanes<Real>], b[kLanes<Real>];  // bodies, see kFar; 0: never moves
     L<Real> normalX, normalY;                       // from A to B
     L<Real> mostPush;                               // units / s that overlap is pushed out with at most
     struct Point {
@@ -114,11 +135,12 @@ struct Softness {
 
 template <class Real>
 struct StepConstants {
-    Real h = 0, inverseH = 0;             // s, 1 / s
-    Softness<Real> moving, still, joint;  // contacts between moving bodies, with one that does not move, joints
-    Real restSpeed = 0;                   // units / s; slower hits do not bounce
-    Real totalKept = 1, totalAdded = 0;   // how a relax pass adds to the totals: they begin anew with a step's first
-                                          // substep, and get the impulses that are left at the end of each
+    Real h = 0, inverseH = 0;              // s, 1 / s
+    Real linearKept = 1, angularKept = 1;  // velocity of what moves left by damping after a substep
+    Softness<Real> moving, still, joint;   // contacts between moving bodies, with one that does not move, joints
+    Real restSpeed = 0;                    // units / s; slower hits do not bounce
+    Real totalKept = 1, totalAdded = 0;    // how a relax pass adds to the totals: they begin anew with a step's first
+                                           // substep, and get the impulses that are left at the end of each
 };
 
 template <class Real>
@@ -153,7 +175,7 @@ struct Kernels {
     void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t,
                        const StepConstants<Real>&);
     /// Takes up the impulses of the last substep, then forces, damping and warm starting.
-    void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, Real h);
+    void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, const StepConstants<Real>&);
     void (*integratePositions)(BodyState<Real>*, std::size_t, Real h);
 };
 

@@ -30,7 +30,7 @@ void Solver<Real>::addJoint(const Joint& joint, Index index)
     colour.index[at] = index;
     anyPoint_ = true;
     JointLanes<Real>& g = colour.joints[at / kWidth];
-    g.a[lane] = static_cast<std::int32_t>(slotA), g.b[lane] = static_cast<std::int32_t>(slotB);
+    g.a[lane] = farOf<Real>(slotA), g.b[lane] = farOf<Real>(slotB);
     g.impulseX[lane] = static_cast<Real>(joint.warm(0, shape_.h));
     g.impulseY[lane] = static_cast<Real>(joint.warm(1, shape_.h));
     AnchorLanes<Real>& anchors = colour.anchors[at / kWidth];

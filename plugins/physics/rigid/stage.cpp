@@ -204,6 +204,8 @@ StepShape RigidStage::shapeOf(const WorldSettings& settings, double dt, bool lar
     shape.h = dt / shape.substeps;
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * shape.h;
     shape.choice = choiceOf(settings);
+    shape.linearKept = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
+    shape.angularKept = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
     return shape;
 }
 
@@ -273,8 +275,6 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     load(solver, state);
     look(solver, state, settings, dt, stats);
     const auto start = std::chrono::steady_clock::now();
-    const double linear = settings.applyDamping ? decay(settings.linearDamping * shape.h) : 1;
-    const double angular = settings.applyDamping ? decay(settings.angularDamping * shape.h) : 1;
     const Nodes& nodes = std::as_const(state).nodes;
     solver.pushBodies([&](Index i, BodyPush<Real>& force) {
         const RigidBody& body = collider_.bodies()[i];
@@ -284,7 +284,6 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         const Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
         force.accelerationW = static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
-        force.linearKept = static_cast<Real>(linear), force.angularKept = static_cast<Real>(angular);
     });
     startJoints(solver, state);
     solver.prepare(passesFor(solver.hardestHit(), large, shape.h));

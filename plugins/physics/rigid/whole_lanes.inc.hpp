@@ -19,9 +19,10 @@ JET_INLINE Lanes<Real> choose(const Mask<Real>& mask, const Lanes<Real>& yes, co
 template <class Real>
 JET_INLINE std::uint32_t bitsOf(const Mask<Real>& mask)
 {
-    std::uint32_t bits = 0;
-    for (int i = 0; i < kLanes<Real>; ++i) bits |= static_cast<std::uint32_t>(mask[i] & 1) << i;
-    return bits;
+    if constexpr (sizeof(Real) == 4)
+        return static_cast<std::uint32_t>(__builtin_ia32_movmskps256((Lanes<float>)mask));
+    else
+        return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256((Lanes<double>)mask));
 }
 template <class Values>
 JET_INLINE Values least(const Values& a, const Values& b)
@@ -36,6 +37,23 @@ JET_INLINE Values most(const Values& a, const Values& b)
 
 typedef float Four __attribute__((vector_size(16), may_alias));
 typedef double FourDoubles __attribute__((vector_size(32), may_alias));
+
+/// Four values that lie side by side.
+template <class Real>
+struct RowOf {
+    typedef Four Values;
+};
+template <>
+struct RowOf<double> {
+    typedef FourDoubles Values;
+};
+template <class Real>
+using Row = typename RowOf<Real>::Values;
+template <class Real>
+JET_INLINE Row<Real> rowWith(Real x, Real y, Real z, Real w)
+{
+    return Row<Real>{x, y, z, w};
+}
 
 /// Rows of four values of eight bodies to four rows of eight, or back: within the halves of a register, as AVX2
 /// shuffles best.
@@ -83,12 +101,31 @@ JET_INLINE void scatterRows(BodyState<float>* bodies, const std::int32_t* index,
     transpose(c);
     // What never moves may be in many groups, of other threads, too.
     const int moving = __builtin_ia32_movmskps256((Lanes<float>)(invMass != Lanes<float>{}));
-    for (int i = 0; i < 4; ++i) {
-        if (moving == 0xff || (moving >> i & 1) != 0)
-            *reinterpret_cast<Four*>(&bodies[index[i]]) = __builtin_shufflevector(c[i], c[i], 0, 1, 2, 3);
-        if (moving == 0xff || (moving >> (i + 4) & 1) != 0)
-            *reinterpret_cast<Four*>(&bodies[index[i + 4]]) = __builtin_shufflevector(c[i], c[i], 4, 5, 6, 7);
+    const auto put = [&](int i) JET_INLINED {
+        Four* const to = reinterpret_cast<Four*>(farFrom(bodies, index[i]));
+        *to = i < 4 ? __builtin_shufflevector(c[i & 3], c[i & 3], 0, 1, 2, 3)
+                    : __builtin_shufflevector(c[i & 3], c[i & 3], 4, 5, 6, 7);
+    };
+    if (moving == 0xff) [[likely]] {
+        put(0), put(1), put(2), put(3), put(4), put(5), put(6), put(7);
+    } else {
+        for (int i = 0; i < 8; ++i)
+            if ((moving >> i & 1) != 0) put(i);
     }
+}
+
+JET_INLINE void scatterRows(BodyState<double>* bodies, const std::int32_t* index, const Lanes<double>& x,
+                            const Lanes<double>& y, const Lanes<double>& z, const Lanes<double>& invMass)
+{
+    const Lanes<double> t0 = __builtin_shufflevector(x, y, 0, 4, 2, 6), t1 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+    const Lanes<double> t2 = __builtin_shufflevector(z, invMass, 0, 4, 2, 6),
+                        t3 = __builtin_shufflevector(z, invMass, 1, 5, 3, 7);
+    const auto put = [&](int i, const Lanes<double>& row) JET_INLINED {
+        BodyState<double>& body = *farFrom(bodies, index[i]);
+        if (body.invMass != 0) *reinterpret_cast<FourDoubles*>(&body) = row;
+    };
+    put(0, __builtin_shufflevector(t0, t2, 0, 1, 4, 5)), put(1, __builtin_shufflevector(t1, t3, 0, 1, 4, 5));
+    put(2, __builtin_shufflevector(t0, t2, 2, 3, 6, 7)), put(3, __builtin_shufflevector(t1, t3, 2, 3, 6, 7));
 }
 
 JET_INLINE void putFour(Lanes<double>& to, int, const Lanes<double>& values) { to = values; }
