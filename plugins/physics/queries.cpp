@@ -263,7 +263,10 @@ std::optional<QueryHit> Queries::castShape(const State& state, const Item& item,
     if (overlaps(state, item, shape)) {
         Vec2 middle(0, 0);
         for (const Vec2& at : moved.points) middle += at / static_cast<double>(moved.points.size());
-        return QueryHit{0, middle, way.squaredNorm() > 0 ? Vec2(-way.normalized()) : Vec2(0, 0)};
+        // Without a way, what leads out of the body is as good a guess as any.
+        Vec2 out = way.squaredNorm() > 0 ? Vec2(-way) : Vec2(middle - boxOf(state, item).center());
+        if (!(out.squaredNorm() > 0)) out = Vec2(0, -1);
+        return QueryHit{0, middle, out.stableNormalized()};
     }
     std::optional<QueryHit> best;
     if (item.isRound) {

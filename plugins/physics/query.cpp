@@ -76,8 +76,9 @@ std::optional<QueryHit> meetSegment(const Vec2& from, const Vec2& way, const Vec
     if (a == b) return best;
     take(best, meetCircle(from, way, b, radius));
     const Vec2 aside = radius * perpendicular(b - a).normalized();
-    take(best, meetLine(from, way, a + aside, b + aside));
-    take(best, meetLine(from, way, a - aside, b - aside));
+    // What begins at the rim and leaves it does not come to it.
+    if (way.dot(aside) < 0) take(best, meetLine(from, way, a + aside, b + aside));
+    if (way.dot(aside) > 0) take(best, meetLine(from, way, a - aside, b - aside));
     return best;
 }
 

@@ -1,5 +1,5 @@
 // Queries against marching by distance, which knows no tree, no edges and no formulas of theirs.
-#include "scenes.hpp"
+#include "lattices.hpp"
 
 #include <jet/result.hpp>
 
@@ -232,6 +232,33 @@ TEST(Queries, CastShapesStopWhereMarchingStops)
         }
     }
     EXPECT_GT(hits, 300);
+}
+
+TEST(Queries, WhatIsRoundAndLeavesWhatItTouchesHitsNothing)
+{
+    auto world = makeWorld({0, 0});
+    world->addRigidBody(box({0, 0}, 20, 20));
+    world->addRigidBody(simple(box({50, 0}, 20, 20)));
+    world->addSoftBody(square({100, 0}, 20));
+    for (const double x : {0.0, 50.0, 100.0}) {
+        const ShapeDef ball{ShapeDef::Kind::Circle, {{x, -11}}, 1},
+            capsule{ShapeDef::Kind::Capsule, {{x - 3, -11}, {x + 3, -11}}, 1};
+        EXPECT_FALSE(world->shapeCast(ball, {0, -20})) << x;
+        EXPECT_FALSE(world->shapeCast(capsule, {0, -20})) << x;
+        EXPECT_FALSE(world->rayCast({x, -10}, {x, -30})) << x;
+    }
+}
+
+TEST(Queries, AnOverlapHasAUnitNormalEvenWithoutAWay)
+{
+    auto world = makeWorld({0, 0});
+    world->addRigidBody(box({0, 0}, 20, 20));
+    for (const Vec2& at : {Vec2(0, 0), Vec2(3, 4)}) {
+        const auto hit = world->shapeCast({ShapeDef::Kind::Circle, {at}, 1}, {0, 0});
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->normal.norm(), 1, 1e-12);
+        EXPECT_GE(hit->normal.dot(at), 0) << "out of the body";
+    }
 }
 
 TEST(Queries, NearestPointsAndOverlapsAreThoseOfAllBodies)
