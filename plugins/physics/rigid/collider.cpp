@@ -4,6 +4,7 @@
 #include "manifold.hpp"
 #include "room.hpp"
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -21,6 +22,15 @@ constexpr float kThin = 0.5F;      // of the thickness
 constexpr float kLongTypical = 6;  // typical lengths: longer thin parts are sought piece by piece
 constexpr int kMostPieces = 64;
 constexpr std::size_t kSoughtABlock = 128;  // parts
+
+constexpr std::size_t kPrefetched = 6;  // pairs
+
+/// Sorts by the left side, then by the part.
+std::uint64_t leftOf(const FatBox& box, Index part)
+{
+    const auto bits = std::bit_cast<std::uint32_t>(box.minX + 0.0F);  // null has no sign
+    return static_cast<std::uint64_t>(bits >> 31 != 0 ? ~bits : bits | 0x80000000U) << 32 | part;
+}
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
@@ -349,28 +359,46 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena
     sweep_.begin(arena);
     const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
     if (foundBy_.size() < blocks) foundBy_.resize(blocks);
+    // From left to right: the order decides the order of solving, and this one lets tall heaps rest.
     pool.run(blocks, [&](std::size_t block) {
         auto& found = foundBy_[block];
         found.clear();
         const std::size_t first = block * kSoughtABlock, last = std::min(sweep_.parts(), first + kSoughtABlock);
-        sweep_.seek(first, last, [&](Index a, Index b) { found.emplace_back(a, b); });
-        std::erase_if(found,
-                      [&](const auto& pair) { return known_.contains(RigidContact::keyOf(pair.first, pair.second)); });
-        for (auto& [a, b] : found)
-            if (sweep_.box(b).minX < sweep_.box(a).minX) std::swap(a, b);
+        sweep_.seek(first, last, [&](Index a, Index b) {
+            const std::uint64_t left = leftOf(sweep_.box(a), a), right = leftOf(sweep_.box(b), b);
+            found.push_back(right >> 32 < left >> 32 ? FoundPair{right, left} : FoundPair{left, right});
+        });
+        std::erase_if(found, [&](const FoundPair& pair) {
+            return known_.contains(RigidContact::keyOf(pair.partA(), pair.partB()));
+        });
+        std::sort(found.begin(), found.end());
     });
     sweep_.finish(arena);
     found_.clear();
     for (std::size_t block = 0; block < blocks; ++block)
         found_.insert(found_.end(), foundBy_[block].begin(), foundBy_[block].end());
-    // From left to right: the order decides the order of solving, and this one lets tall heaps rest.
-    std::sort(found_.begin(), found_.end(), [&](const std::pair<Index, Index>& p, const std::pair<Index, Index>& q) {
-        const auto left = [&](Index part) { return std::pair(sweep_.box(part).minX, part); };
-        return std::pair(left(p.first), left(p.second)) < std::pair(left(q.first), left(q.second));
-    });
+    std::sort(found_.begin(), found_.end());
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-    for (const auto& [a, b] : found_) addPair(std::min(a, b), std::max(a, b), settings);
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        prefetchPair(i + kPrefetched);
+        const Index a = found_[i].partA(), b = found_[i].partB();
+        addPair(std::min(a, b), std::max(a, b), settings);
+    }
     hits_.resize(contacts_.size(), 0);
+}
+
+/// New pairs lie anywhere in memory.
+void Collider::prefetchPair(std::size_t found) const
+{
+    if (found >= found_.size()) return;
+    for (const Index part : {found_[found].partA(), found_[found].partB()}) {
+        __builtin_prefetch(&parts_[part]), __builtin_prefetch(&parts_[part].thickness);
+    }
+    known_.prefetch(RigidContact::keyOf(found_[found].partA(), found_[found].partB()));
+    if (free_.size() <= kPrefetched) return;
+    const Index contact = free_[free_.size() - 1 - kPrefetched];
+    __builtin_prefetch(&contacts_[contact], 1), __builtin_prefetch(&contacts_[contact].normal, 1);
+    __builtin_prefetch(&nearing_[contact], 1);
 }
 
 bool Collider::mayMeet(Index a, Index b) const

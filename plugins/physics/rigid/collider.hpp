@@ -84,6 +84,8 @@ public:
         arena.release(looks_);
         drift_ = {}, reached_ = {};
     }
+    /// It may be forgotten soon.
+    void prefetchKnown(Index contact) const { known_.prefetch(contacts_[contact].key()); }
     /// All that was due has been looked at.
     void settled() { disturbed_ = false; }
     /// What was seen of a pair.
@@ -102,7 +104,7 @@ public:
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
     void stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves, const std::vector<double>& turns,
-                        double dt);
+                        double dt, Pool&);
 
     const Rules& rulesOf(const RigidBody& body) const { return rules_[body.rules]; }
     void setRules(RigidBody&, const Rules&);
@@ -173,9 +175,11 @@ private:
     void fitPieces(std::vector<FatBox>&, Index part, const Pose&, float room, double dt) const;
     void fitBox(Index part, const Pose&, float room, double dt);
     void findPairs(const WorldSettings&, Pool&, Arena&);
+    void prefetchPair(std::size_t found) const;
     void addPair(Index partA, Index partB, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
     std::size_t nextHit(std::size_t from) const;
+    std::size_t nextMarked(std::size_t from) const;
     bool surprise(Index body, float gain, double dt);
     bool apart(Index partA, Index partB) const;
     Relative relative(Index bodyA, Index bodyB) const;
@@ -219,12 +223,19 @@ private:
     std::size_t looks_ = 0;      // mark of the arena
     PairSweep sweep_;
     KeySet known_, excluded_;
-    std::vector<std::pair<Index, Index>> found_;                 // scratch of findPairs()
-    std::vector<std::vector<std::pair<Index, Index>>> foundBy_;  // the same, by blocks
+    /// A pair of parts, the left one first; in the order of their left sides.
+    struct FoundPair {
+        std::uint64_t left = 0, right = 0;
+        Index partA() const { return static_cast<Index>(left); }
+        Index partB() const { return static_cast<Index>(right); }
+        friend auto operator<=>(const FoundPair&, const FoundPair&) = default;
+    };
+    std::vector<FoundPair> found_;                 // scratch of findPairs()
+    std::vector<std::vector<FoundPair>> foundBy_;  // the same, by blocks
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;       // [contacts]
     std::vector<Nearing> nearing_;    // [contacts]
-    std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step?
+    std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step; in the end: marks
     std::vector<Vec2f> moved_;        // [bodies] units in this step; scratch of stopTunnelling()
     std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
     std::vector<Index> free_;         // gaps in the contacts

@@ -12,6 +12,7 @@ constexpr float kSlopsPerLength = 500;
 constexpr float kPushPerSlop = kPushLengths * kSlopsPerLength;
 constexpr std::uint32_t kGroupsABlock = 16;
 constexpr std::size_t kIdleABlock = 512;
+constexpr std::size_t kPrefetched = 4;
 
 void prefetch(const Part& part)
 {
@@ -99,8 +100,13 @@ void Solver<Real>::settleBlocks(Collider& collider, std::size_t count, bool reso
         hardest_ = std::max(hardest_, blocks_[i].hardest);
         foresees_ |= blocks_[i].foresees;
     }
-    for (std::size_t i = 0; i < count; ++i)
-        for (const Outcome& outcome : blocks_[i].outcomes) settle(collider, outcome, resolve);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::vector<Outcome>& outcomes = blocks_[i].outcomes;
+        for (std::size_t k = 0; k < outcomes.size(); ++k) {
+            if (k + kPrefetched < outcomes.size()) collider.prefetchKnown(outcomes[k + kPrefetched].contact);
+            settle(collider, outcomes[k], resolve);
+        }
+    }
 }
 
 template <class Real>

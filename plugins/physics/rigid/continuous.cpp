@@ -8,6 +8,9 @@ namespace jet::physics {
 
 namespace {
 
+constexpr std::size_t kMarkedABlock = 1024;  // contacts
+constexpr int kPasses = 1, kHeld = 2;        // marks of those whose bodies may pass, of those with a body held back
+
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
 }  // namespace
@@ -95,9 +98,10 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
 }
 
 /// The next contact of a hit; when bodies are surprised, any.
-std::size_t Collider::nextHit(std::size_t from) const
+std::size_t Collider::nextHit(std::size_t from) const { return surprised_ ? from : nextMarked(from); }
+
+std::size_t Collider::nextMarked(std::size_t from) const
 {
-    if (surprised_) return from;
     for (std::uint64_t eight = 0; from + sizeof eight <= hits_.size(); from += sizeof eight) {
         std::memcpy(&eight, &hits_[from], sizeof eight);
         if (eight != 0) break;
@@ -161,30 +165,36 @@ float Collider::untilCentrePasses(const RigidContact& c, const Vec2& relativeMov
 }
 
 void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves,
-                              const std::vector<double>& turns, double dt)
+                              const std::vector<double>& turns, double dt, Pool& pool)
 {
     allowed.assign(bodies_.size(), 1.0F);
     if (contacts_.empty()) return;
-    bool any = false;
     moved_.resize(bodies_.size());
     float farthest = 0;
     for (Index i = 1; i < bodies_.size(); ++i) {
         moved_[i] = {static_cast<float>(moves[i].x()), static_cast<float>(moves[i].y())};
         farthest = std::max({farthest, std::abs(moved_[i].x), std::abs(moved_[i].y)});
         if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
-        any |= allowed[i] < 1;
     }
+    pool.ranges(contacts_.size(), kMarkedABlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Nearing& n = nearing_[i];
+            const Vec2f rough = moved_[n.bodyB] - moved_[n.bodyA];
+            const float most = 0.9999F * n.thin - 1e-6F * farthest;  // the digits that single precision drops
+            const bool passes = !(most > 0) | !(dot(rough, rough) <= most * most);
+            const bool held = (allowed[n.bodyA] < 1) | (allowed[n.bodyB] < 1);
+            hits_[i] = static_cast<std::uint8_t>((passes ? kPasses : 0) | (held ? kHeld : 0));
+        }
+    });
     // What another moving body has hit must give way to it.
-    for (Index i = 0; any && i < contacts_.size(); ++i) {
+    for (std::size_t i = nextMarked(0); i < contacts_.size(); i = nextMarked(i + 1)) {
         const RigidContact& c = contacts_[i];
-        if (places_[i] == kFree || c.count == 0) continue;
+        if ((hits_[i] & kHeld) == 0 || places_[i] == kFree || c.count == 0) continue;
         if (poses_[c.bodyA].travel > 0 && poses_[c.bodyB].travel > 0) allowed[c.bodyA] = allowed[c.bodyB] = 1;
     }
-    for (Index i = 0; i < contacts_.size(); ++i) {
+    for (std::size_t i = nextMarked(0); i < contacts_.size(); i = nextMarked(i + 1)) {
+        if ((hits_[i] & kPasses) == 0) continue;
         const Nearing& n = nearing_[i];
-        const Vec2f rough = moved_[n.bodyB] - moved_[n.bodyA];
-        const float most = 0.9999F * n.thin - 1e-6F * farthest;  // the digits that single precision drops
-        if (most > 0 && dot(rough, rough) <= most * most) continue;
         const Vec2 relativeMove = moves[n.bodyB] - moves[n.bodyA];
         if (!(relativeMove.squaredNorm() > static_cast<double>(n.thin) * static_cast<double>(n.thin))) continue;
         const RigidContact& c = contacts_[i];

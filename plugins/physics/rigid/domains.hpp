@@ -81,8 +81,14 @@ public:
             for (Index body = 1; body < count_; ++body) work(body, slotOf(body));
             return;
         }
-        if (depth_ > 0)
-            pool.run(leaves(), [&](std::size_t i) { range(ranges_[leaf(i)].first, ranges_[leaf(i)].last); });
+        // Bodies of all domains are mixed in other stages' memory. Each domain begins elsewhere, so that threads do not
+        // go side by side through the same lines.
+        auto domain = [&](std::size_t i) {
+            const Slots slots = ranges_[leaf(i)];
+            const std::size_t start = slots.first + (slots.last - slots.first) * i / leaves();
+            range(start, slots.last), range(slots.first, start);
+        };
+        if (depth_ > 0) pool.run(leaves(), domain);
         const Slots rest = ranges_[kRoot];
         pool.ranges(rest.last - rest.first, kBlock,
                     [&](std::size_t first, std::size_t last) { range(rest.first + first, rest.first + last); });

@@ -17,6 +17,11 @@ public:
     /// False when it was there already.
     bool insert(std::uint64_t key);
     bool contains(std::uint64_t key) const;
+    /// It is asked for soon.
+    void prefetch(std::uint64_t key) const
+    {
+        if (!slots_.empty()) __builtin_prefetch(&slots_[slotOf(key)], 1);
+    }
     void erase(std::uint64_t key);
     void clear();
     std::size_t bytes() const { return slots_.capacity() * sizeof(std::uint64_t); }

@@ -309,7 +309,7 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
     if (fast) {
         moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
         solver.eachBody([&](Index i, const BodyState<Real>& s) { std::tie(moves_[i], turns_[i]) = moveOf(i, s); });
-        collider_.stopTunnelling(allowed_, moves_, turns_, dt);
+        collider_.stopTunnelling(allowed_, moves_, turns_, dt, pool_);
     }
     solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
