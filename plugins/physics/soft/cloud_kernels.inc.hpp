@@ -1,72 +1,17 @@
-// The kernels of cloud_kernels.hpp, included once by the file of each instruction set, in a namespace of its own.
+// The kernels of cloud_kernels.hpp, included once by the file of each instruction set, in a namespace of its own, after
+// cloud_lanes.inc.hpp.
 
 namespace {
 
 #define JET_ALWAYS __attribute__((always_inline))
 
-using Two = Lanes<double>;  // x y of one particle, x y of the next
-using Bits = LaneTypes<double>::Mask;
-
-JET_INLINE Two both(double x, double y) { return Two{x, y, x, y}; }
-JET_INLINE Two all(double value) { return Two{} + value; }
-JET_INLINE Two swapped(const Two& v) { return __builtin_shufflevector(v, v, 1, 0, 3, 2); }
 JET_INLINE Two turned(const Two& v) { return swapped(v) * both(-1, 1); }  // by a right angle
-JET_INLINE Two most(const Two& a, const Two& b) { return a > b ? a : b; }
-JET_INLINE Two least(const Two& a, const Two& b) { return a < b ? a : b; }
 /// x² + y² of each particle, twice.
 JET_INLINE Two squares(const Two& v)
 {
     const Two own = v * v;
     return own + swapped(own);
 }
-JET_INLINE bool anySet(const Bits& mask)
-{
-#ifdef __AVX2__
-    return _mm256_movemask_pd((__m256d)mask) != 0;
-#else
-    return _mm_movemask_pd((__m128d)__builtin_shufflevector(mask, mask, 0, 1)) != 0 ||
-           _mm_movemask_pd((__m128d)__builtin_shufflevector(mask, mask, 2, 3)) != 0;
-#endif
-}
-JET_INLINE Two root(const Two& v)
-{
-#ifdef __AVX2__
-    return (Two)_mm256_sqrt_pd((__m256d)v);
-#else
-    const auto low = _mm_sqrt_pd((__m128d)__builtin_shufflevector(v, v, 0, 1));
-    const auto high = _mm_sqrt_pd((__m128d)__builtin_shufflevector(v, v, 2, 3));
-    return Two{low[0], low[1], high[0], high[1]};
-#endif
-}
-JET_INLINE double sumX(const Two& v) { return v[0] + v[2]; }
-JET_INLINE double sumY(const Two& v) { return v[1] + v[3]; }
-
-/// Vectors of two particles; a last one alone is taken twice.
-JET_INLINE Two vectors(const double* from, std::size_t n, bool two)
-{
-    Two v;
-    if (two) {
-        __builtin_memcpy(&v, from + 2 * n, sizeof v);
-    } else {
-        v = both(from[2 * n], from[2 * n + 1]);
-    }
-    return v;
-}
-/// Masses; that of one taken twice counts once.
-JET_INLINE Two masses(const double* from, std::size_t n, bool two)
-{
-    const double second = two ? from[n + 1] : 0;
-    return Two{from[n], from[n], second, second};
-}
-JET_INLINE void store(double* to, std::size_t n, bool two, const Two& v)
-{
-    if (two) {
-        __builtin_memcpy(to + 2 * n, &v, sizeof v);
-    } else {
-        to[2 * n] = v[0], to[2 * n + 1] = v[1];
-    }
-}
-
 /// Calls act(n, two) for each two particles from n on.
 template <class Act>
 JET_INLINE void eachTwo(std::size_t count, Act&& act)
@@ -110,8 +55,8 @@ void bounds(const double* position, std::size_t count, double* lowest, double* g
         low = least(low, at), high = most(high, at);
     });
     for (int axis = 0; axis < 2; ++axis) {
-        lowest[axis] = low[axis] < low[axis + 2] ? low[axis] : low[axis + 2];
-        greatest[axis] = high[axis] > high[axis + 2] ? high[axis] : high[axis + 2];
+        lowest[axis] = lowOf(low)[axis] < highOf(low)[axis] ? lowOf(low)[axis] : highOf(low)[axis];
+        greatest[axis] = lowOf(high)[axis] > highOf(high)[axis] ? lowOf(high)[axis] : highOf(high)[axis];
     }
 }
 
@@ -134,7 +79,7 @@ CloudStray stray(const Cloud& cloud, const CloudMotion& motion)
         speed = most(speed, squares(ownVelocity(vectors(cloud.velocity, n, two), arm, motion)));
         if (cloud.rest) off = most(off, squares(goals(vectors(cloud.rest, n, two), motion) - arm));
     });
-    return {off[0] > off[2] ? off[0] : off[2], speed[0] > speed[2] ? speed[0] : speed[2]};
+    return {mostX(off), mostX(speed)};
 }
 
 CloudPulled pull(const Cloud& cloud, const CloudMotion& motion, const CloudPull& by, double* change)
@@ -150,9 +95,9 @@ CloudPulled pull(const Cloud& cloud, const CloudMotion& motion, const CloudPull&
         Two sum{};
         if (anySet(drawn)) {
             result.any = true;
-            const Two elastic = (Two)((Bits)(all(by.elastic) * (1 - tolerance / root(squared)) * away) & drawn);
+            const Two elastic = where(drawn, all(by.elastic) * (all(1) - tolerance / root(squared)) * away);
             const Two own = ownVelocity(vectors(cloud.velocity, n, two), arm, motion);
-            const Two damping = (Two)((Bits)(all(-by.damped) * own) & drawn);
+            const Two damping = where(drawn, all(-by.damped) * own);
             const Two m = masses(cloud.mass, n, two);
             pulled += m * elastic, turn += m * arm * swapped(elastic);
             damped += m * damping, dampedTurn += m * arm * swapped(damping);
@@ -185,7 +130,7 @@ double farthest(const double* position, const double* from, const double* moving
         if (moving) off -= all(t) * vectors(moving, n, two);
         far = most(far, squares(off));
     });
-    return far[0] > far[2] ? far[0] : far[2];
+    return mostX(far);
 }
 
 }  // namespace

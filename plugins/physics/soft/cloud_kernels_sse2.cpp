@@ -6,5 +6,7 @@
 #include <immintrin.h>
 
 namespace jet::physics::soft::sse2 {
+#include "cloud_lanes.inc.hpp"
+
 #include "cloud_kernels.inc.hpp"
 }  // namespace jet::physics::soft::sse2

@@ -28,7 +28,8 @@ struct alignas(32) ContactBlock {
     // As of the substep.
     Flags active{};
     Floats normalX{}, normalY{}, separation{}, along{}, mass{}, approach{};
-    Floats beside{}, passing{};  // units beyond an end of the wall, units / s along it
+    // What an impulse does to the velocities of the three, 1 / mass, where one is active.
+    double ofPoint[kWide]{}, ofFirst[kWide]{}, ofSecond[kWide]{};
     // Carried from substep to substep, mass * unit / s.
     Floats normalImpulse{}, tangentImpulse{}, stepImpulse{};
     Flags far{};            // of those that do not act: may wait long

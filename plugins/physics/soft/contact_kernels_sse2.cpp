@@ -4,5 +4,7 @@
 #include <immintrin.h>
 
 namespace jet::physics::soft::sse2 {
+#include "contact_lanes.inc.hpp"
+
 #include "contact_kernels.inc.hpp"
 }  // namespace jet::physics::soft::sse2
