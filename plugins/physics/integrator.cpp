@@ -77,9 +77,7 @@ void integratePositions(State& state, const SoftSprings& springs, double h)
         const Index first = body.nodes.first;
         if (body.nodes.count == 0 || body.fixed) continue;
         if (!body.rigid) {
-            const Vec2 drift = springs.drift(handle);
-            springs.kernels().advance(nodes.position[first].data(), nodes.velocity[first].data(), body.nodes.count, h,
-                                      drift.x(), drift.y());
+            springs.advance(state, handle, h);
             continue;
         }
         if (nodes.invMass[first] == 0) continue;

@@ -119,7 +119,7 @@ void SoftSprings::arrange(const State& state)
             candidate.ends.push_back({a_[i] - mesh.nodes.first, b_[i] - mesh.nodes.first});
     }
     batches_ = soft::batchesOf(state, std::move(candidates), std::move(batches_));
-    std::size_t room = 0, most = 0;
+    std::size_t room = 0, most = 0, parts = 1, head = 0;
     for (Index k = 0; k < batches_.size(); ++k) {
         soft::Batch& batch = batches_[k];
         batch.rest.assign(batch.blocks.count() * soft::kLanes, 0);
@@ -128,9 +128,13 @@ void SoftSprings::arrange(const State& state)
             meshes_[batch.bodies[lane]].batch = k, meshes_[batch.bodies[lane]].lane = lane;
         room = std::max(room, soft::Planes::kCount * strideOf(batch.room()) + (batch.gathers() ? 4 * batch.room() : 0));
         most = std::max(most, batch.blocks.count());
+        batch.divide();
+        parts = std::max(parts, batch.parts.size());
+        if (batch.parts.size() > 1) head = std::max(head, soft::headFor(batch.blocks.reach));
     }
-    planes_.resize(room);
-    tornBlocks_.resize(most);
+    rooms_.resize(parts);
+    for (Room& own : rooms_)
+        own.planes.resize(room), own.torn.resize(most), own.held.resize(2 * head), own.spilt.resize(2 * head);
 }
 
 /// From now on the kernels watch the lengths of the batch's springs.
@@ -235,10 +239,11 @@ void SoftSprings::addForces(State& state)
         if (!mesh.wide) pullOneByOne(state, mesh);
 }
 
-soft::Planes SoftSprings::planes(const soft::Batch& batch)
+soft::Planes SoftSprings::planes(const soft::Batch& batch, Room& room)
 {
-    const std::size_t room = batch.room(), stride = strideOf(room);
-    return {planes_.data(), stride, batch.gathers() ? planes_.data() + soft::Planes::kCount * stride : nullptr, room};
+    const std::size_t nodes = batch.room(), stride = strideOf(nodes);
+    float* const first = room.planes.data();
+    return {first, stride, batch.gathers() ? first + soft::Planes::kCount * stride : nullptr, nodes};
 }
 
 void SoftSprings::accelerate(State& state, double h, const Vec2& gravity, double kept, bool pushed)
@@ -261,14 +266,14 @@ soft::Frame SoftSprings::frameOf(const State& state, Index body) const
     return {at.x(), at.y(), moving.x(), moving.y()};
 }
 
-soft::SpringBlocks SoftSprings::springsOf(const soft::Batch& batch)
+soft::SpringBlocks SoftSprings::springsOf(const soft::Batch& batch, Room& room) const
 {
     const soft::Blocks& blocks = batch.blocks;
     return {blocks.runs.data(), blocks.runs.size(),
             blocks.ends.data(), blocks.ends.size() / (2 * soft::kLanes),
             batch.rest.data(),  batch.kind.data(),
             batch.kinds.data(), batch.tear.empty() ? nullptr : batch.tear.data(),
-            tornBlocks_.data(), static_cast<float>(crush_),
+            room.torn.data(),   static_cast<float>(crush_),
             blocks.reach};
 }
 
@@ -291,14 +296,43 @@ void SoftSprings::accelerateAlone(State& state, soft::Batch& batch, soft::Veloci
     const std::size_t first = body.nodes.first;
     step.gravityX *= body.gravityScale, step.gravityY *= body.gravityScale;
     const soft::Swing swing =
-        kernels_->swing(springsOf(batch),
-                        {nodes.position[first].data(), nodes.velocity[first].data(),
-                         force ? force + 2 * first : nullptr, &nodes.invMass[first], body.nodes.count},
-                        frameOf(state, handle), step, planes(batch));
-    if (swing.torn > 0) tearIn(state, batch, swing.torn);
+        this->swing(state, batch,
+                    {nodes.position[first].data(), nodes.velocity[first].data(), force ? force + 2 * first : nullptr,
+                     &nodes.invMass[first], body.nodes.count},
+                    step);
     // Taken out as the body moves on. Pins take it up where there are any.
     drift_[handle] =
         swing.pinned ? Vec2(0, 0) : Vec2(-step.kept * step.h * leftOver(swing.x, swing.y, body.soft->mass));
+}
+
+/// Part by part, all at once; then what reaches from each into the next.
+soft::Swing SoftSprings::swing(const State& state, soft::Batch& batch, const soft::NodeArrays& nodes,
+                               const soft::VelocityStep& step)
+{
+    const soft::Frame frame = frameOf(state, batch.bodies.front());
+    const std::size_t count = batch.parts.size();
+    std::array<soft::Swing, 8> swings;
+    const auto partOf = [&](std::size_t k) {
+        soft::Stretch part = batch.parts[k];
+        part.held = rooms_[k].held.data();
+        part.spilt = k + 1 < count ? rooms_[k].spilt.data() : nullptr;
+        return part;
+    };
+    state.run(count, [&](std::size_t k) {
+        swings[k] =
+            kernels_->swing(springsOf(batch, rooms_[k]), nodes, frame, step, planes(batch, rooms_[k]), partOf(k));
+    });
+    if (count > 1)
+        state.run(count, [&](std::size_t k) {
+            if (k == 0) return;
+            swings[4 + k] =
+                kernels_->join(nodes, step, planes(batch, rooms_[k]), partOf(k), rooms_[k - 1].spilt.data());
+        });
+    soft::Swing all;
+    for (const soft::Swing& swing : swings) all.x += swing.x, all.y += swing.y, all.pinned |= swing.pinned;
+    for (std::size_t k = 0; k < count; ++k)
+        if (swings[k].torn > 0) tearIn(state, batch, {rooms_[k].torn.data(), swings[k].torn});
+    return all;
 }
 
 void SoftSprings::accelerateAlike(State& state, soft::Batch& batch, double h, const Vec2& gravity, double kept,
@@ -308,11 +342,11 @@ void SoftSprings::accelerateAlike(State& state, soft::Batch& batch, double h, co
     double* velocity = nodes.velocity.data()->data();
     std::array<soft::Frame, soft::kLanes> frames;
     for (Index lane = 0; lane < soft::kLanes; ++lane) frames[lane] = frameOf(state, bodyOf(batch, lane));
-    const soft::Planes planes = this->planes(batch);
+    const soft::Planes planes = SoftSprings::planes(batch, rooms_.front());
     kernels_->relateAlike(nodes.position.data()->data(), velocity, batch.nodeAt.data(), batch.rows, frames.data(),
                           planes);
-    const std::size_t torn = kernels_->pull(springsOf(batch), planes);
-    if (torn > 0) tearIn(state, batch, torn);
+    const std::size_t torn = kernels_->pull(springsOf(batch, rooms_.front()), planes);
+    if (torn > 0) tearIn(state, batch, {rooms_.front().torn.data(), torn});
     std::array<double, 2 * std::size_t{soft::kLanes}> left{};
     kernels_->sumAlike(planes, batch.rows, left.data());
     std::array<soft::VelocityStep, soft::kLanes> steps;
@@ -326,17 +360,32 @@ void SoftSprings::accelerateAlike(State& state, soft::Batch& batch, double h, co
                               batch.bodies.size(), steps.data(), planes);
 }
 
+void SoftSprings::advance(State& state, Index handle, double h) const
+{
+    Nodes& nodes = state.nodes;
+    const Range& own = state.bodies[handle].nodes;
+    const Vec2 drift = handle < drift_.size() ? drift_[handle] : Vec2(0, 0);
+    const auto move = [&](std::size_t first, std::size_t end) {
+        kernels_->advance(nodes.position[own.first + first].data(), nodes.velocity[own.first + first].data(),
+                          end - first, h, drift.x(), drift.y());
+    };
+    const std::size_t parts = meshes_[handle].wide ? batches_[meshes_[handle].batch].parts.size() : 1;
+    if (parts <= 1) return move(0, own.count);
+    // Where it was accelerated.
+    const std::vector<soft::Stretch>& part = batches_[meshes_[handle].batch].parts;
+    state.run(parts, [&](std::size_t k) { move(part[k].first, part[k].end); });
+}
+
 /// Lanes without a body stand for the first.
 Index SoftSprings::bodyOf(const soft::Batch& batch, Index lane) const
 {
     return batch.bodies[lane < batch.bodies.size() ? lane : 0];
 }
 
-/// The kernels only warn, of the first `count` of tornBlocks_: whether a spring of one is too long is decided in
+/// The kernels only warn, of blocks: whether a spring of one is too long is decided in
 /// double, so that it tears at exactly its length. Its last force, of a length that differs by rounding, still acts.
-void SoftSprings::tearIn(const State& state, const soft::Batch& batch, std::size_t count)
+void SoftSprings::tearIn(const State& state, const soft::Batch& batch, std::span<std::uint32_t> blocks)
 {
-    const std::span<std::uint32_t> blocks{tornBlocks_.data(), count};
     std::sort(blocks.begin(), blocks.end());
     for (Index lane = 0; lane < batch.bodies.size(); ++lane) {
         Mesh& mesh = meshes_[batch.bodies[lane]];

@@ -53,11 +53,11 @@ public:
     /// The others: changes the velocities of their bodies over h, by springs, gravity and damping (`kept`: the part it
     /// leaves), and by the forces on the nodes where there are any (`pushed`); those are used up.
     void accelerate(State&, double h, const Vec2& gravity, double kept, bool pushed);
+    /// Moves a body's nodes on over h, at the velocities they have.
+    void advance(State&, Index body, double h) const;
     bool anyOneByOne() const { return anyOneByOne_; }
     /// Is the body one of those that accelerate() moves?
     bool isWide(Index body) const { return meshes_[body].wide; }
-    /// What accelerate() leaves to be added to the velocities of a body as it moves on.
-    Vec2 drift(Index body) const { return body < drift_.size() ? drift_[body] : Vec2(0, 0); }
     /// Changes velocities by the impulses of angular springs over h. `backwards` alternates, so that no end of the list
     /// is favoured.
     void applyAngular(State&, double h, bool backwards);
@@ -141,13 +141,19 @@ private:
     void measureBias(const State&, Mesh&);
     void fill(Mesh&);
     void fillRests(const Mesh&);
+    /// Of the part at work of a body.
+    struct Room {
+        std::vector<float> planes, held, spilt;
+        std::vector<std::uint32_t> torn;
+    };
     void accelerateAlone(State&, soft::Batch&, soft::VelocityStep, double* force);
+    soft::Swing swing(const State&, soft::Batch&, const soft::NodeArrays&, const soft::VelocityStep&);
     void accelerateAlike(State&, soft::Batch&, double h, const Vec2& gravity, double kept, double* force);
     soft::Frame frameOf(const State&, Index body) const;
-    soft::SpringBlocks springsOf(const soft::Batch&);
-    soft::Planes planes(const soft::Batch&);
+    soft::SpringBlocks springsOf(const soft::Batch&, Room&) const;
+    static soft::Planes planes(const soft::Batch&, Room&);
     void pullOneByOne(State&, Mesh&);
-    void tearIn(const State&, const soft::Batch&, std::size_t count);
+    void tearIn(const State&, const soft::Batch&, std::span<std::uint32_t> blocks);
     void tear(Mesh&, Index spring);
     Index bodyOf(const soft::Batch&, Index lane) const;
     void applyAngularSpring(State&, Angular&, double h);
@@ -169,8 +175,7 @@ private:
     double crush_ = 0;  // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
     // Scratch of the body or batch at work; that of preparing is given back.
     std::vector<Vec2> drift_;  // [bodies] units / s, of the substep
-    std::vector<float> planes_;
-    std::vector<std::uint32_t> tornBlocks_;
+    std::vector<Room> rooms_;  // the first serves what is not divided
     std::vector<double> stiffness_, damping_, load_, weight_, matrix_;
 };
 

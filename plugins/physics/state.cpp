@@ -57,8 +57,12 @@ void updatePoints(State& state)
         if (body.rigid) {
             for (Index p = body.points.first; p < body.points.end(); ++p) points.position[p] = state.pointNow(p);
         } else {
-            for (Index p = body.points.first; p < body.points.end(); ++p)
-                points.position[p] = state.nodes.position[points.node[p]];
+            constexpr std::size_t kTogether = 4096;
+            state.run((body.points.count + kTogether - 1) / kTogether, [&](std::size_t block) {
+                const std::size_t first = body.points.first + block * kTogether;
+                const std::size_t end = std::min<std::size_t>(body.points.end(), first + kTogether);
+                for (std::size_t p = first; p < end; ++p) points.position[p] = state.nodes.position[points.node[p]];
+            });
         }
     }
 }

@@ -7,6 +7,7 @@
 
 #include "column.hpp"
 #include "edge_grid.hpp"
+#include "rigid/pool.hpp"
 #include "soft/cloud_kernels.hpp"
 #include "trigonometry.hpp"
 
@@ -151,6 +152,15 @@ struct State {
     BodyReadings readings;
     mutable Scratch scratch;  // holds nothing between calls
     const soft::CloudKernels* clouds = &soft::sse2::clouds;
+    Pool* pool = nullptr;  // of the step, where threads are of use
+
+    /// Calls work(block) for each block below `blocks`, at once and in any order: its results must not depend on that.
+    template <class Work>
+    void run(std::size_t blocks, Work&& work) const
+    {
+        if (pool) return pool->run(blocks, work);
+        for (std::size_t block = 0; block < blocks; ++block) work(block);
+    }
 
     /// Do their layers, masks and groups let them meet?
     bool mayMeet(Index a, Index b) const

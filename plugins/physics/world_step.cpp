@@ -5,7 +5,9 @@
 #include "validation.hpp"
 #include "world.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 namespace jet::physics {
@@ -28,6 +30,29 @@ public:
 private:
     double& milliseconds_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Particles of a body from which on it is divided between threads.
+constexpr std::size_t kLeastShared = 8192;
+
+/// Lends the state the threads for a step, where there is a body large enough.
+class Sharing {
+public:
+    Sharing(State& state, Pool& pool, int threads) : state_(state)
+    {
+        const auto large = [](const BodyRecord& body) { return body.nodes.count >= kLeastShared; };
+        if (threads <= 1 || std::none_of(state.bodies.begin(), state.bodies.end(), large)) return;
+        pool.setThreads(threads);
+        attention_.emplace(pool);
+        state.pool = &pool;
+    }
+    ~Sharing() { state_.pool = nullptr; }
+    Sharing(const Sharing&) = delete;
+    Sharing& operator=(const Sharing&) = delete;
+
+private:
+    State& state_;
+    std::optional<Pool::Attention> attention_;
 };
 
 }  // namespace
@@ -56,6 +81,7 @@ void World::stepPart(double dt)
     ended_.clear();
     untold_ = false;
     if (onlySimple()) return stepSimple(dt);
+    const Sharing sharing(state_, rigid_.pool(), settings_.threads);
     refresh();
     prepareStiffness();
     const bool plain = settings_.method == Method::SemiImplicitEuler;

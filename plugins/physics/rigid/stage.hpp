@@ -86,6 +86,7 @@ public:
     std::size_t bytes() const;
     /// Of steps; between them it holds nothing of theirs.
     Arena& arena() { return arena_; }
+    Pool& pool() { return pool_; }
     void fitRoom() { collider_.fitRoom(), bodyOf_.shrink_to_fit(); }
 
     template <class Archive>

@@ -87,6 +87,26 @@ bool equal(const std::vector<Ends>& p, const std::vector<Ends>& q)
 
 }  // namespace
 
+void Batch::divide()
+{
+    constexpr std::size_t kLeastPart = 4096, kMostParts = 4;  // nodes
+    const std::size_t head = headFor(blocks.reach), least = std::max(kLeastPart, 2 * head);
+    const std::size_t count = std::clamp<std::size_t>(rows / least, 1, kMostParts);
+    parts.assign(count, Stretch());
+    for (std::size_t k = 0; k < count; ++k) {
+        Stretch& part = parts[k];
+        part.first = k == 0 ? 0 : parts[k - 1].end;
+        part.end = k + 1 == count ? rows : (k + 1) * rows / count / kPortion * kPortion;
+        part.head = k == 0 ? 0 : head;
+        const auto before = [](const Run& run, std::size_t node) { return run.a < node; };
+        part.run = static_cast<std::size_t>(
+            std::lower_bound(blocks.runs.begin(), blocks.runs.end(), part.first, before) - blocks.runs.begin());
+        while (part.scattered * 2 * kLanes < blocks.ends.size() &&
+               blocks.ends[part.scattered * 2 * kLanes] < part.first)
+            ++part.scattered;
+    }
+}
+
 void Batch::part()
 {
     kind.resize(blocks.count());
@@ -130,7 +150,7 @@ void Batch::cut(std::uint32_t seat)
 std::size_t Batch::bytes() const
 {
     return bodies.capacity() * sizeof(Index) + nodeAt.capacity() * sizeof(Index) +
-           blocks.runs.capacity() * sizeof(Run) +
+           blocks.runs.capacity() * sizeof(Run) + parts.capacity() * sizeof(Stretch) +
            (blocks.ends.capacity() + blocks.seat.capacity()) * sizeof(std::uint32_t) +
            kind.capacity() * sizeof(std::uint32_t) +
            (rest.capacity() + kinds.capacity() + tear.capacity()) * sizeof(float);

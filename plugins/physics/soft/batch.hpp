@@ -20,6 +20,7 @@ struct Batch {
     Index rows = 0;             // nodes of one body
     std::vector<Index> nodeAt;  // [rows * 8] of bodies alike; lanes without a body stand for the first. Empty: one body
     Blocks blocks;  // of bodies alike: runs alone, each of one spring of every body; seats are those of lane 0
+    std::vector<Stretch> parts;  // of one large body, that are computed apart; else one that is all of it
     // See SpringBlocks. tear is empty where none tears.
     std::vector<float> rest, tear;
     std::vector<std::uint32_t> kind;  // [blocks]
@@ -33,6 +34,8 @@ struct Batch {
     std::uint32_t seat(std::uint32_t lane, std::uint32_t spring) const { return blocks.seat[spring] + lane; }
     /// Are there so many springs to gather that all particles are also kept as x y vx vy?
     bool gathers() const { return 2 * blocks.ends.size() > rows; }
+    /// Divides a large body. How is up to the body alone: bits must not depend on threads.
+    void divide();
     /// Before the springs are filled in: each block gets a kind of its own.
     void part();
     /// Afterwards: what is equal is kept once.

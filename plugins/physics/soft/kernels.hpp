@@ -102,11 +102,24 @@ struct Swing {
     std::size_t torn = 0;  ///< blocks put into SpringBlocks::torn
 };
 
+/// Part of a large body, gone through apart from the others, at the same time. Springs belong to the part that their
+/// block's first node lies in; what they do to nodes of the next part, not further than its head, is handed over.
+struct Stretch {
+    std::size_t first = 0, end = 0;           ///< nodes; multiples of kPortion, but for the end of the last
+    std::size_t run = 0, scattered = 0;       ///< the first blocks of its own
+    std::size_t head = 0;                     ///< nodes from its first on that move only when the part before is done
+    float *held = nullptr, *spilt = nullptr;  ///< [2][room for a head] forces along x, y: its head's; on the next one's
+};
+inline std::size_t headFor(std::size_t reach) { return (reach + 8 + kPortion - 1) / kPortion * kPortion; }
+
 struct Kernels {
     /// Changes the velocities by the springs, gravity and the forces from outside, as accelerate() does; the planes are
     /// its scratch. A body is gone through once, a few rows at a time: what is related to the frame is pulled at and
     /// accelerated while it is still near in the cache.
-    Swing (*swing)(const SpringBlocks&, const NodeArrays&, const Frame&, const VelocityStep&, const Planes&);
+    Swing (*swing)(const SpringBlocks&, const NodeArrays&, const Frame&, const VelocityStep&, const Planes&,
+                   const Stretch&);
+    /// Then moves the head of a part, which the part before has spilt forces on.
+    Swing (*join)(const NodeArrays&, const VelocityStep&, const Planes&, const Stretch&, const float* spilt);
     /// Fills the planes with those of bodies alike: row k, lane l is node nodeAt[8 k + l] in frames[l]; no forces.
     void (*relateAlike)(const double* position, const double* velocity, const std::uint32_t* nodeAt, std::size_t rows,
                         const Frame* frames, const Planes&);

@@ -131,9 +131,10 @@ struct KernelSet {
         const Frame& frame;
         const VelocityStep& step;
         Planes planes;
+        const Stretch& part;
         Sums sums{};
-        std::size_t base = 0, moved = 0, related = 0;  // nodes; moved <= related
-        std::size_t run = 0, scattered = 0, torn = 0;
+        std::size_t base = part.first, moved = part.first, related = part.first;  // nodes; moved <= related
+        std::size_t run = part.run, scattered = part.scattered, torn = 0;
 
         void go(std::size_t end)
         {
@@ -145,8 +146,19 @@ struct KernelSet {
             }
             gather(end);
             run = pullRuns(blocks, run, end, planes, base, torn);
-            accelerate(*this, end);
+            if (end <= part.first + part.head) {
+                copyForces(part.held + (moved - part.first), moved, end);
+            } else {
+                accelerate(*this, end);
+            }
             moved = end;
+        }
+        /// Those on nodes from one to another, to planes of a head.
+        void copyForces(float* to, std::size_t from, std::size_t end) const
+        {
+            const std::size_t room = headFor(blocks.reach);
+            std::copy_n(planes[Planes::Fx] + (from - base), end - from, to);
+            std::copy_n(planes[Planes::Fy] + (from - base), end - from, to + room);
         }
         /// What is still needed goes to the start of the planes.
         void slide()
@@ -176,12 +188,31 @@ struct KernelSet {
     };
 
     static Swing swing(const SpringBlocks& blocks, const NodeArrays& nodes, const Frame& frame,
-                       const VelocityStep& step, const Planes& planes)
+                       const VelocityStep& step, const Planes& planes, const Stretch& part)
     {
-        Passage way{blocks, nodes, frame, step, planes};
-        while (way.moved < nodes.count) way.go(std::min(nodes.count, way.moved + kPortion));
+        Passage way{blocks, nodes, frame, step, planes, part};
+        while (way.moved < part.end) way.go(std::min(part.end, way.moved + kPortion));
+        if (part.spilt) {
+            std::fill_n(part.spilt, 2 * headFor(blocks.reach), 0.0F);
+            way.copyForces(part.spilt, part.end, way.related);
+        }
         Swing swing;
         swing.torn = way.torn;
+        way.sums.total(swing);
+        return swing;
+    }
+
+    static Swing join(const NodeArrays& nodes, const VelocityStep& step, const Planes& planes, const Stretch& part,
+                      const float* spilt)
+    {
+        const SpringBlocks none;
+        const Frame frame;
+        Passage way{none, nodes, frame, step, planes, part};
+        float *fx = planes[Planes::Fx], *fy = planes[Planes::Fy];
+        for (std::size_t k = 0; k < part.head; ++k)
+            fx[k] = spilt[k] + part.held[k], fy[k] = spilt[part.head + k] + part.held[part.head + k];
+        accelerate(way, part.first + part.head);
+        Swing swing;
         way.sums.total(swing);
         return swing;
     }
@@ -392,7 +423,8 @@ struct KernelSet {
         return _mm_mul_pd(v, _mm_min_pd(scale, splat(1)));
     }
 
-    static constexpr Kernels table{&swing, &relateAlike, &pull, &sumAlike, &accelerate, &accelerateAlike, &advance};
+    static constexpr Kernels table{&swing,    &join,       &relateAlike,     &pull,
+                                   &sumAlike, &accelerate, &accelerateAlike, &advance};
 };
 
 }  // namespace

@@ -11,6 +11,9 @@ namespace jet::physics::soft {
 namespace {
 
 constexpr std::size_t kLeastInRun = 5;  // with fewer springs, gathering them with others is cheaper
+// Nodes between the first ones of scattered springs computed together, at most: large bodies are cut into parts that no
+// block may reach over.
+constexpr std::uint32_t kWidest = 512;
 constexpr std::uint32_t kAlone = 0xffffffffU;
 
 using Order = std::vector<std::uint32_t>;
@@ -177,13 +180,15 @@ Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes)
         };
         return key(p) < key(q);
     });
-    for (std::size_t at = 0; at < alone.size(); at += kLanes) {
+    for (std::size_t at = 0, taken = 0; at < alone.size(); at += taken) {
         const auto block = static_cast<std::uint32_t>(blocks.count());
         const std::uint32_t low = std::min(springs[alone[at]].a, springs[alone[at]].b);
+        taken = 0;
         blocks.ends.resize(blocks.ends.size() + 2 * kLanes, low);  // of lanes without a spring
         std::uint32_t* ends = blocks.ends.data() + blocks.ends.size() - 2 * kLanes;
-        for (std::uint32_t k = 0; k < kLanes && at + k < alone.size(); ++k) {
+        for (std::uint32_t k = 0; k < kLanes && at + k < alone.size(); ++k, ++taken) {
             const std::uint32_t spring = alone[at + k];
+            if (std::min(springs[spring].a, springs[spring].b) > low + kWidest) break;
             ends[k] = std::min(springs[spring].a, springs[spring].b);
             ends[kLanes + k] = std::max(springs[spring].a, springs[spring].b);
             blocks.seat[spring] = block * kLanes + k;

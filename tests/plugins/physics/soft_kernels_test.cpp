@@ -1,6 +1,6 @@
 // The wide kernels of soft bodies: every spring has its place, and each instruction set gives the same bits.
 #include "lattices.hpp"
-#include "soft/layout.hpp"
+#include "soft/batch.hpp"
 
 #include <array>
 #include <random>
@@ -157,10 +157,11 @@ TEST(SoftKernels, EveryInstructionSetGivesTheSameBits)
                                        kinds.data(),       tear.data(),
                                        torn.data(),        0.001F,
                                        blocks.reach};
-            const Swing swing = kernels.swing(springs,
-                                              {now.position.data(), now.velocity.data(),
-                                               pushed ? force.data() : nullptr, now.inverse.data(), order.size()},
-                                              {now.position[0], 2, 1, 2}, {1.0 / 480, 0.3, 9.8, 0.999}, room.view());
+            const Swing swing =
+                kernels.swing(springs,
+                              {now.position.data(), now.velocity.data(), pushed ? force.data() : nullptr,
+                               now.inverse.data(), order.size()},
+                              {now.position[0], 2, 1, 2}, {1.0 / 480, 0.3, 9.8, 0.999}, room.view(), {0, order.size()});
             torn.resize(swing.torn);
             kernels.advance(now.position.data(), now.velocity.data(), order.size(), 1.0 / 480, swing.x, swing.y);
             return std::tuple(now.position, now.velocity, room.planes, room.near, swing.pinned, force, torn);
@@ -169,6 +170,69 @@ TEST(SoftKernels, EveryInstructionSetGivesTheSameBits)
             EXPECT_EQ(run(kernelsSse2(), pushed), run(kernelsAvx2(), pushed));
             EXPECT_FALSE(std::get<6>(run(kernelsSse2(), pushed)).empty());
         }
+    }
+}
+
+TEST(SoftKernels, ALargeBodyInPartsIsPulledAsWholeAndTearsWhereItDid)
+{
+    // In rows; with one particle in seven joined far away, so that there are springs to gather across parts.
+    for (const std::uint32_t far : {0U, 100U}) {
+        SoftBodyDef def = sheet(100, 130);
+        for (std::uint32_t i = 0; far > 0 && i + far + i % 5 < 13000; i += 7)
+            if (i % 100 < 90) def.springs.push_back({i, i + far + i % 5, 3, 10, 0.1, 0});
+        Random number;
+        const auto order = orderOf(def);
+        Batch batch;
+        batch.rows = static_cast<Index>(order.size());
+        batch.blocks = arrange(endsOf(def, order), batch.rows);
+        batch.divide();
+        ASSERT_EQ(batch.parts.size(), 3U);
+        const Blocks& blocks = batch.blocks;
+        EXPECT_EQ(blocks.ends.empty(), far == 0);
+        const Particles start = shaken(def, order, number);
+        const auto rest = numbers(blocks.count() * kLanes, 0, 20, number), kinds = numbers(3 * 16, 0, 20, number);
+        const auto tear = numbers(blocks.count() * kLanes, 1, 40, number);
+        const std::vector<std::uint32_t> kind(blocks.count(), 1);
+        const std::size_t head = headFor(blocks.reach);
+        const auto run = [&](std::vector<Stretch> parts) {
+            Particles now = start;
+            const NodeArrays nodes{now.position.data(), now.velocity.data(), nullptr, now.inverse.data(), order.size()};
+            const VelocityStep step{1.0 / 480, 0.3, 9.8, 0.999};
+            Room room(roomFor(order.size(), blocks.reach));
+            std::vector<std::uint32_t> torn;
+            std::vector<std::vector<float>> held(parts.size()), spilt(parts.size());
+            Swing all;
+            // The last first: no part may need what another has already changed.
+            for (std::size_t k = parts.size(); k-- > 0;) {
+                held[k].resize(2 * head), spilt[k].resize(2 * head, 7);
+                parts[k].held = held[k].data(), parts[k].spilt = k + 1 < parts.size() ? spilt[k].data() : nullptr;
+                std::vector<std::uint32_t> own(blocks.count());
+                const SpringBlocks springs{blocks.runs.data(), blocks.runs.size(),
+                                           blocks.ends.data(), blocks.ends.size() / 16,
+                                           rest.data(),        kind.data(),
+                                           kinds.data(),       tear.data(),
+                                           own.data(),         0.001F,
+                                           blocks.reach};
+                const Swing swing =
+                    bestKernels().swing(springs, nodes, {now.position[0], 2, 1, 2}, step, room.view(), parts[k]);
+                torn.insert(torn.end(), own.begin(), own.begin() + static_cast<std::ptrdiff_t>(swing.torn));
+                all.x += swing.x, all.y += swing.y;
+            }
+            for (std::size_t k = 1; k < parts.size(); ++k) {
+                const Swing swing = bestKernels().join(nodes, step, room.view(), parts[k], spilt[k - 1].data());
+                all.x += swing.x, all.y += swing.y;
+            }
+            std::sort(torn.begin(), torn.end());
+            return std::tuple(now.velocity, torn, all.x, all.y);
+        };
+        const auto [velocity, torn, x, y] = run(batch.parts);
+        const auto [whole, tornWhole, wholeX, wholeY] = run({{0, order.size()}});
+        EXPECT_EQ(torn, tornWhole);
+        EXPECT_FALSE(torn.empty());
+        for (std::size_t i = 0; i < whole.size(); ++i)
+            ASSERT_NEAR(velocity[i], whole[i], 1e-5 * (1 + std::abs(whole[i]))) << i;
+        EXPECT_NEAR(x, wholeX, 0.1);
+        EXPECT_NEAR(y, wholeY, 0.1);
     }
 }
 
