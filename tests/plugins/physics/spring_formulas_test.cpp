@@ -2,6 +2,8 @@
 // forces and torques that sum to zero, tearing at exactly kt.
 #include "formulas.hpp"
 
+#include <utility>
+
 namespace jet::physics::test {
 
 namespace {
@@ -85,6 +87,46 @@ TEST(SpringFormulas, TheDampingRatioIsAsAskedOverSixDecades)
                 const double expected = 2 * kPi * zeta / std::sqrt(1 - zeta * zeta);
                 EXPECT_NEAR(swing.decrement, expected, 0.02 * expected + 1e-3) << ks << " " << zeta << " " << count;
                 EXPECT_NEAR(swing.period, damped, 0.02 * damped) << ks << " " << zeta << " " << count;
+            }
+        }
+    }
+}
+
+TEST(SpringFormulas, AtTheDefaultStepEachSubstepTurnsAnUndampedSpringByTwiceTheArcsineOfHalfItsPhase)
+{
+    // x' = 2 cos(turn) x - x'' from step to step, turn = n 2 asin(w h / 2): also of what swings faster than is seen.
+    for (const int count : {1, 24}) {
+        for (double ks = 0.1; ks < 3.5e6; ks *= 5) {
+            auto world = makeWorld({0, 0});
+            world->addSoftBody(pairs(count, ks, 0, 5));
+            double before = 5, now = 0, most = 0;
+            world->step(kStep);
+            now = stretchOf(*world, 0);
+            const double substeps = world->stats().substeps, h = kStep / substeps;
+            const double phase = std::sqrt(ks / kReduced) * h, turn = substeps * 2 * std::asin(phase / 2);
+            for (int i = 0; i < 120; ++i) {
+                world->step(kStep);
+                const double next = stretchOf(*world, 0);
+                EXPECT_NEAR(next, 2 * std::cos(turn) * now - before, 2e-3) << ks << " " << count << " " << i;
+                before = std::exchange(now, next);
+                most = std::max(most, std::abs(now));
+            }
+            EXPECT_LT(most, 6.5) << ks;  // none is gained, whatever of it is seen
+            EXPECT_LT(2 * std::asin(phase / 2) / phase, phase <= 0.5 ? 1.011 : 1.073) << ks;
+        }
+    }
+}
+
+TEST(SpringFormulas, AtTheDefaultStepSpringsTooStiffForItsSubstepsComeToRestWithinTwoSteps)
+{
+    for (const int count : {1, 24}) {
+        for (double ks = count == 1 ? 1e7 : 1e8; ks < 2e10; ks *= 10) {
+            auto world = makeWorld({0, 0});
+            world->addSoftBody(pairs(count, ks, 0, 5));
+            world->step(kStep), world->step(kStep);
+            for (int i = 0; i < 60; ++i) {
+                EXPECT_LT(std::abs(stretchOf(*world, 0)), 0.05) << ks << " " << count << " " << i;
+                world->step(kStep);
             }
         }
     }
