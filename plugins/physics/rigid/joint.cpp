@@ -57,7 +57,8 @@ void JointRow<Real>::solve(BodyState<Real>* bodies, const Softness<Real>& standa
         bias = now * inverseH + (push ? bend : Real(0));
     } else if (!velocityOnly && (push || soft)) {
         const Softness<Real>& s = soft ? spring : standard;
-        bias = s.biasRate * now + bend, massScale = s.massScale, impulseScale = s.impulseScale;
+        bias = s.biasRate * (soft ? now : std::clamp(now, -far, far)) + bend, massScale = s.massScale,
+        impulseScale = s.impulseScale;
     }
     const Real wanted = -mass * massScale * (moving(bodies) + bias) - impulseScale * impulse;
     const Real total = std::clamp(impulse + wanted, least, most);
@@ -92,6 +93,8 @@ JointFrame frameOf(const Joint& joint, const State& state, const std::vector<Rig
 namespace {
 
 constexpr double kUnlimited = 1e30;
+constexpr double kTurn = 0.5;       // radians that a push turns a body by at most
+constexpr double kStrained = 0.04;  // of that
 
 /// Builds rows of one joint; each has a slot in which its impulse is kept from step to step.
 template <class Real>
@@ -123,6 +126,9 @@ public:
         const Real inverse = a.invMass * (row.ax * row.ax + row.ay * row.ay + row.angularA * row.angularA) +
                              b.invMass * (row.bx * row.bx + row.by * row.by + row.angularB * row.angularB);
         row.mass = inverse > 0 ? 1 / inverse : 0;
+        const Real turn = row.mass * std::max(a.invMass * a.perGyration * std::abs(row.angularA),
+                                              b.invMass * b.perGyration * std::abs(row.angularB));
+        row.far = static_cast<Real>(turn * kUnlimited > kTurn ? kTurn / turn : kUnlimited);
         row.impulse = static_cast<Real>(joint_.warm(slot, h_));
         row.least = static_cast<Real>(-kUnlimited), row.most = static_cast<Real>(kUnlimited);
         return rows_.emplace_back(row);
@@ -132,6 +138,7 @@ public:
         if (!(hertz > 0)) return;
         const Softness<double> s = softnessOf(hertz, joint_.def.dampingRatio, h_);
         row.soft = true;
+        row.frequency = static_cast<Real>(2 * kPi * hertz);
         row.spring = {static_cast<Real>(s.biasRate), static_cast<Real>(s.massScale), static_cast<Real>(s.impulseScale)};
     }
     void makeMotor(JointRow<Real>& row, double speed, double most)
@@ -304,10 +311,11 @@ bool turnsFar(const JointRow<Real>& now, const JointRow<Real>& then)
 }
 
 template <class Real>
-void TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* pushes, double h,
+bool TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* pushes, double h,
                              std::vector<JointRow<Real>>& rows, std::vector<JointRow<Real>>& made) const
 {
-    if (!make(frameIn(states, 0), states, h, made)) return;
+    if (!make(frameIn(states, 0), states, h, made)) return true;
+    bool strained = false;
     const auto follow = [&](Index slot, Real x, Real y, Real angular) {
         const BodyState<Real>& s = states[slot];
         if (s.invMass == 0) return;
@@ -316,12 +324,17 @@ void TurningRows<Real>::turn(const BodyState<Real>* states, BodyPush<Real>* push
     };
     for (std::size_t i = 0; i < count_; ++i) {
         JointRow<Real>&old = rows[first_ + i], &row = made[i];
-        const Real was = old.impulse, p = row.impulse = turnsFar(old, row) ? 0 : was;
+        const bool far = turnsFar(old, row);
+        const Real was = old.impulse, p = row.impulse = far ? 0 : was;
         follow(a_, row.ax * p - old.ax * was, row.ay * p - old.ay * was, row.angularA * p - old.angularA * was);
         follow(b_, row.bx * p - old.bx * was, row.by * p - old.by * was, row.angularB * p - old.angularB * was);
+        strained |= far || (!row.soft && !row.velocityOnly && !(std::abs(row.error) < kStrained * row.far) &&
+                            !(row.limit && row.error > 0));
         row.error -= row.moved(states);
+        row.stored = old.stored, row.given = old.given;
         old = row;
     }
+    return strained;
 }
 
 template <class Real>

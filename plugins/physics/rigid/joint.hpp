@@ -29,7 +29,11 @@ struct JointRow {
     bool velocityOnly = false;  // motors
     bool limit = false;         // one-sided: error may be positive
     Softness<Real> spring;
+    Real frequency = 0;  // of that, rad / s
     Real mass = 0, impulse = 0;
+    Real far = Real(1e30);  // units or radians: greater errors are not pushed out at once
+    Real given = 0;         // by a motor in the step, mass units² / s² or mass / s²
+    Real stored = 0;        // energy of a spring of its own at the start of the step
 
     /// Changes the velocities so that the row is met, with or without pushing errors out.
     void solve(BodyState<Real>* bodies, const Softness<Real>& standard, Real inverseH, bool push);
@@ -37,6 +41,8 @@ struct JointRow {
     /// J times the velocities, and the moves, of its bodies.
     Real moving(const BodyState<Real>* bodies) const;
     Real moved(const BodyState<Real>* bodies) const;
+    /// Of a spring of its own; its stiffness is that of the effective mass, and changes with it.
+    Real springEnergy(Real at) const { return soft ? mass * frequency * frequency * at * at / 2 : 0; }
     /// Of its impulse, when it is a row of turning alone; mass units² / s.
     double torqueOfB() const
     {
@@ -88,8 +94,9 @@ public:
         : joint_(&joint), index_(index), a_(a), b_(b), first_(first), count_(count), start_(start)
     {
     }
-    /// Makes the rows anew for where the bodies are; what their impulses warm follows. `made`: scratch.
-    void turn(const BodyState<Real>*, BodyPush<Real>*, double h, std::vector<JointRow<Real>>& rows,
+    /// Makes the rows anew for where the bodies are; what their impulses warm follows. `made`: scratch. Says
+    /// whether they are strained.
+    bool turn(const BodyState<Real>*, BodyPush<Real>*, double h, std::vector<JointRow<Real>>& rows,
               std::vector<JointRow<Real>>& made) const;
     /// Looks where the velocities lead in a substep.
     void foresee(const BodyState<Real>*, double h, std::vector<JointRow<Real>>& rows,

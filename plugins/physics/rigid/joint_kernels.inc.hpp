@@ -180,12 +180,24 @@ JET_INLINE void directionOf(const Lanes<Real>& angle, Lanes<Real>& cosine, Lanes
     }
 }
 
+/// By how much a body turns when it alone takes away an error of one.
 template <class Real>
-void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLanes<Real>* groups, std::size_t count,
+JET_INLINE Lanes<Real> turnOf(const Lanes<Real>& invMass, const Lanes<Real>& perGyration, const Lanes<Real>& armX,
+                              const Lanes<Real>& armY)
+{
+    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1), inverse = perGyration * perGyration;
+    const Lanes<Real> arm = magnitude<Real>(armX) + magnitude<Real>(armY);
+    return choose<Real>(invMass > zero, inverse * arm / (one + inverse * (armX * armX + armY * armY)), zero);
+}
+
+template <class Real>
+bool turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLanes<Real>* groups, std::size_t count,
                 const StepConstants<Real>& step)
 {
     const Lanes<Real> half = all(Real(0.5));
-    constexpr Real kFar = Real(0.05), kWhirl = Real(0.25);
+    constexpr Real kFar = Real(0.05), kWhirl = Real(0.25), kTurn = Real(0.5);
+    const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
+    Lanes<Real> strained = zero;
     for (std::size_t g = 0; g < count; ++g) {
         Joints<Real>& j = view(groups[g]);
         const BodyLanes<Real> a = velocities(bodies, j.a), b = velocities(bodies, j.b);
@@ -208,6 +220,14 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
                                 (magnitude<Real>(b.spin * moveB.perGyration) < mostOmega);
         ax = choose<Real>(calm, ax + halfX, j.armAX), ay = choose<Real>(calm, ay + halfY, j.armAY);
         bx = choose<Real>(calm, bx - halfX, j.armBX), by = choose<Real>(calm, by - halfY, j.armBY);
+        // No push turns a body by more than half a radian: it would lead elsewhere than it was meant to.
+        const Lanes<Real> error = magnitude<Real>(j.errorX) + magnitude<Real>(j.errorY);
+        const Lanes<Real> turn = error * most(turnOf<Real>(a.invMass, moveA.perGyration, ax, ay),
+                                              turnOf<Real>(b.invMass, moveB.perGyration, bx, by));
+        const Lanes<Real> mostTurn = all(kTurn);
+        const Lanes<Real> push = mostTurn / most(turn, mostTurn);
+        j.errorX *= push, j.errorY *= push;
+        strained = choose<Real>((error <= 2 * far) & calm, strained, one);
         const Lanes<Real> perA = a.invMass * moveA.perGyration, perB = b.invMass * moveB.perGyration;
         const Lanes<Real> warmA = perA * ((j.armAX - ax) * j.impulseY - (j.armAY - ay) * j.impulseX);
         const Lanes<Real> warmB = perB * ((bx - j.armBX) * j.impulseY - (by - j.armBY) * j.impulseX);
@@ -219,4 +239,7 @@ void turnJoints(const BodyState<Real>* bodies, BodyPush<Real>* pushes, JointLane
         j.armAX = ax, j.armAY = ay, j.armBX = bx, j.armBY = by;
         weigh<Real>(j, a.invMass, b.invMass);
     }
+    bool any = false;
+    for (int i = 0; i < kLanes<Real>; ++i) any |= strained[i] > 0;
+    return any;
 }

@@ -41,6 +41,7 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool,
     domains_.resize(bodies);
     taken_.resize(bodies, domains_.depth());
     if (colours_.empty()) colours_.resize(kColours * Domains::kNodes), jointColours_.resize(kColours * Domains::kNodes);
+    std::fill(std::begin(strained_), std::end(strained_), false);
     changes_.clear();
     hardest_ = 0;
     foresees_ = false;
@@ -120,10 +121,11 @@ template <class Real>
 void Solver<Real>::turnNode(Node node)
 {
     for (const TurningRows<Real>& each : turning_[node])
-        each.turn(states_.data(), pushes_.data(), shape_.h, rows_[node], made_[node]);
+        strained_[node] |= each.turn(states_.data(), pushes_.data(), shape_.h, rows_[node], made_[node]);
     for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
         JointColour& c = jointColours_[firstColourOf(node) + i];
-        kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size(), constants_);
+        strained_[node] |=
+            kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size(), constants_);
     }
 }
 
@@ -163,6 +165,9 @@ void Solver<Real>::relaxNode(Node node, int pass, bool last)
     BodyState<Real>* states = states_.data();
     if (pass == 0) turnNode(node);
     for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, false);
+    if (last)
+        for (JointRow<Real>& row : rows_[node])
+            if (row.velocityOnly) row.given += std::max(Real(0), row.impulse * row.moving(states));
     for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
         JointColour& c = jointColours_[firstColourOf(node) + i];
         kernels_->relaxJoints(states, c.joints.data(), c.joints.size());

@@ -11,6 +11,8 @@
 #include "snapshot.hpp"
 #include "solver_data.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace jet::physics {
@@ -42,6 +44,8 @@ public:
     void divide(Collider&, const State&, const std::vector<Joint>&, bool anyway);
     BodyState<Real>& body(Index i) { return states_[domains_.slotOf(i)]; }
     const BodyState<Real>& body(Index i) const { return states_[domains_.slotOf(i)]; }
+    /// Of the step; see pushBodies().
+    const BodyPush<Real>& pushOf(Index i) const { return pushes_[domains_.slotOf(i)]; }
     /// Calls work(body, state) for all bodies, many at once.
     template <class Work>
     void eachBody(Work&& work)
@@ -69,6 +73,22 @@ public:
     /// The same, and forgets them.
     void releaseJoints(std::vector<Joint>&);
     void dropJoints();
+    /// The impulses that their next step starts with.
+    void scaleJoints(std::vector<Joint>&, const std::function<double(const Joint&)>& factor);
+
+    const StepShape& shape() const { return shape_; }
+    /// Did errors of joints come to more than a small part of their arms?
+    bool strained() const
+    {
+        return std::any_of(std::begin(strained_), std::end(strained_), [](bool is) { return is; });
+    }
+    /// Calls work(row, error) for all rows of joints, with their present errors.
+    template <class Work>
+    void eachRow(Work&& work) const
+    {
+        for (const auto& rows : rows_)
+            for (const JointRow<Real>& row : rows) work(row, row.error + row.moved(states_.data()));
+    }
 
     /// How fast the hardest hit comes, in sizes of the smaller part a second.
     float hardestHit() const { return hardest_; }
@@ -286,6 +306,7 @@ private:
     double jointsH_ = 0;               // seconds: their impulses are of substeps of this
     bool anyPoint_ = false;            // has any joint a point?
     bool jointsTold_ = true;           // have the joints got the impulses of the last step?
+    bool strained_[Domains::kNodes + 1] = {};
     std::vector<Flip> flips_[Domains::kNodes + 1];
     std::span<float> drifts_;  // [slots] of the collider, in the arena
     Pool* pool_ = nullptr;

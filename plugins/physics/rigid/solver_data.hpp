@@ -171,8 +171,9 @@ struct Kernels {
     void (*pushJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t, const StepConstants<Real>&);
     /// Takes the pushing velocity back out.
     void (*relaxJoints)(BodyState<Real>*, JointLanes<Real>*, std::size_t);
-    /// Turns the arms to where the bodies are now; what the accumulated impulses warm follows.
-    void (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t,
+    /// Turns the arms to where the bodies are now; what the accumulated impulses warm follows. Says whether any is
+    /// strained.
+    bool (*turnJoints)(const BodyState<Real>*, BodyPush<Real>*, JointLanes<Real>*, std::size_t,
                        const StepConstants<Real>&);
     /// Takes up the impulses of the last substep, then forces, damping and warm starting.
     void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, const StepConstants<Real>&);

@@ -81,6 +81,8 @@ void Solver<Real>::startJoints(const std::vector<Joint>& joints, const State& st
             const JointFrame f = frameOf(joint, state, bodies);
             const std::size_t first = rows_[node].size();
             addRows(joint, each.joint, f, states_.data(), each.a, each.b, shape_.h, rows_[node]);
+            for (std::size_t i = first; i < rows_[node].size(); ++i)
+                rows_[node][i].stored = rows_[node][i].springEnergy(rows_[node][i].error);
             if (joint.rowsTurn())
                 turning_[node].emplace_back(joint, each.joint, f, each.a, each.b, first, rows_[node].size() - first);
         }
@@ -122,6 +124,24 @@ void Solver<Real>::tellJoints(std::vector<Joint>& joints)
             Joint& joint = joints[row.joint];
             joint.state.force += static_cast<double>(row.impulse) / jointsH_ * Vec2(row.bx, row.by);
             if (row.bx == 0 && row.by == 0) joint.state.torque += row.torqueOfB() / jointsH_;
+        }
+}
+
+template <class Real>
+void Solver<Real>::scaleJoints(std::vector<Joint>& joints, const std::function<double(const Joint&)>& factor)
+{
+    for (JointColour& colour : jointColours_) {
+        for (std::size_t at = 0; at < colour.count; ++at) {
+            if (colour.index[at] == kNone) continue;
+            const auto by = static_cast<Real>(factor(joints[colour.index[at]]));
+            JointLanes<Real>& g = colour.joints[at / kWidth];
+            g.impulseX[at % kWidth] *= by, g.impulseY[at % kWidth] *= by;
+        }
+    }
+    for (auto& rows : rows_)
+        for (JointRow<Real>& row : rows) {
+            row.impulse *= static_cast<Real>(factor(joints[row.joint]));
+            joints[row.joint].impulse[row.slot] = static_cast<double>(row.impulse);
         }
 }
 

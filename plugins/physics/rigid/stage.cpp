@@ -289,9 +289,38 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     solver.prepare(passesFor(solver.hardestHit(), large, shape.h));
     solver.run();
     solver.finish(collider_, joints_);
+    restrain(solver, state, dt);
     advance(solver, state, dt);
     stats.colours = static_cast<std::uint32_t>(solver.colours());
     stats.solverMs += millisecondsSince(start);
+}
+
+/// While the nodes are as they were at the start of the step.
+template <class Real>
+void RigidStage::restrain(Solver<Real>& solver, const State& state, double dt)
+{
+    if (joints_.empty() || !nets_.due(joints_.size(), solver.strained(), dt)) return;
+    const auto& bodies = collider_.bodies();
+    const Nodes& nodes = state.nodes;
+    budgets_.assign(bodies.size(), {});
+    for (Index i = 1; i < bodies.size(); ++i) {
+        const BodyState<Real>& s = solver.body(i);
+        if (s.invMass == 0 || !bodies[i].takesPart()) continue;
+        const BodyPush<Real>& force = solver.pushOf(i);
+        const double k = bodies[i].gyration, mass = 1 / static_cast<double>(s.invMass);
+        const Vec2 before = nodes.velocity[bodies[i].node], after(s.velocityX, s.velocityY);
+        const double spun = k * nodes.omega[bodies[i].node], spins = static_cast<double>(s.spin);
+        const Vec2 acceleration(force.accelerationX, force.accelerationY);
+        const double power =
+            acceleration.dot(before + after) + static_cast<double>(force.accelerationW) * (spun + spins);
+        budgets_[i].energy = mass / 2 * (before.squaredNorm() + spun * spun + dt * power);
+        budgets_[i].jolt =
+            mass / 2 * dt * dt * (acceleration.squaredNorm() + std::pow(static_cast<double>(force.accelerationW), 2));
+    }
+    nets_.restrain(solver, collider_, joints_, budgets_, [&](Index i) {
+        const BodyState<Real>& s = solver.body(i);
+        return Vec2(nodes.position[bodies[i].node] + Vec2(s.moveX, s.moveY));
+    });
 }
 
 /// Moves the nodes, but nothing fast through what was not foreseen.
@@ -356,9 +385,11 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
     double_.begin(collider_.bodies().size(), shape, pool_, arena_);
     load(double_, state);
     start_.resize(collider_.bodies().size()), startAngle_.resize(collider_.bodies().size());
+    budgets_.assign(collider_.bodies().size(), {});
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
         start_[i] = state.nodes.position[collider_.bodies()[i].node];
         startAngle_[i] = state.nodes.angle[collider_.bodies()[i].node];
+        budgets_[i].energy = kineticEnergy(double_.body(i));
     }
     look(double_, state, settings, dt, stats);
     double_.pushBodies([](Index, BodyPush<double>& push) { push = BodyPush<double>(); });
@@ -380,8 +411,16 @@ void RigidStage::exchange(State& state, bool store)
             limitSpeed(nodes.velocity[node], nodes.omega[node]);
             continue;
         }
+        const double had = kineticEnergy(s), spun = s.spin;
+        const Vec2 was(s.velocityX, s.velocityY);
         s.velocityX = nodes.velocity[node].x(), s.velocityY = nodes.velocity[node].y();
         s.spin = nodes.omega[node] * gyration;
+        // By others.
+        budgets_[i].energy += kineticEnergy(s) - had;
+        if (s.invMass > 0) {
+            const double change = (Vec2(s.velocityX, s.velocityY) - was).squaredNorm() + std::pow(s.spin - spun, 2);
+            budgets_[i].jolt += substeps_ / 2 * change / s.invMass;
+        }
         const Vec2 move = nodes.position[node] - start_[i];
         s.moveX = move.x(), s.moveY = move.y(), s.sweep = (nodes.angle[node] - startAngle_[i]) * gyration;
     }
@@ -404,12 +443,13 @@ void RigidStage::relax(State& state)
 
 void RigidStage::finish(State& state, bool bounce)
 {
-    if (bounce) {
-        exchange(state, false);
-        double_.bounce();
-        exchange(state, true);
-    }
+    exchange(state, false);
+    if (bounce) double_.bounce();
     double_.finish(collider_, joints_);
+    if (!joints_.empty() && nets_.due(joints_.size(), double_.strained(), substeps_ * double_.shape().h))
+        nets_.restrain(double_, collider_, joints_, budgets_,
+                       [&](Index i) { return state.nodes.position[collider_.bodies()[i].node]; });
+    exchange(state, true);
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
         const RigidBody& body = collider_.bodies()[i];
         const double turn = state.nodes.angle[body.node] - startAngle_[i];

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "collider.hpp"
+#include "nets.hpp"
 #include "solver.hpp"
 
 #include <functional>
@@ -110,6 +111,7 @@ public:
             if constexpr (std::is_same_v<Archive, RestoreArchive>) collider_.setRules(body, rules);
         }
         with.list(ended_, [&](Parting& parting) { with(parting); });
+        nets_.archive(with);
         with(active_);
         if (active_ == Active::Single) single_.archive(with, collider_);
         if (active_ == Active::Double) double_.archive(with, collider_);
@@ -174,6 +176,8 @@ private:
     void advance(Solver<Real>&, State&, double dt);
     template <class Real>
     bool anyFast(Solver<Real>&);
+    template <class Real>
+    void restrain(Solver<Real>&, const State&, double dt);
     void exchange(State&, bool store);
     void noteTouches(const std::vector<TouchChange>&);
     void tellPartings();
@@ -198,6 +202,7 @@ private:
     std::uint64_t jointsVersion_ = 1;   // counts changes of what the solver knows of joints
     std::uint64_t brittleVersion_ = 0;  // that `brittle_` is of
     bool brittle_ = false;              // may any of them break?
+    Nets nets_;
     Solver<float> single_;
     Solver<double> double_;
     std::vector<ContactEvent> events_;
@@ -209,6 +214,8 @@ private:
     std::vector<Vec2> start_, moves_;
     std::vector<double> startAngle_, turns_;
     std::vector<float> allowed_;
+    std::vector<Nets::Budget>
+        budgets_;          // [bodies] at the start of the step, and given by others since; of those it moves
     double substeps_ = 1;  // of the last step
 
     /// How a body moved between the last looks at it. Turns are ways of its farthest point.
