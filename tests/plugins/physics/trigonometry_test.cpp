@@ -15,6 +15,9 @@ TEST(Trigonometry, DirectionIsCosineAndSine)
     }
     EXPECT_NEAR(direction(123456.789).x(), std::cos(123456.789), 1e-12);
     EXPECT_EQ(direction(0), Vec2(1, 0));
+    for (const double angle : {1e9 - 1, 1e9 + 1, -3e12, 1e19, -1e300})
+        EXPECT_TRUE(direction(angle).allFinite()) << angle;
+    EXPECT_NEAR((direction(-1e9 - 1) - Vec2(std::cos(-1e9 - 1), std::sin(-1e9 - 1))).norm(), 0, 1e-6);
 }
 
 TEST(Trigonometry, AngleOfIsTheArcTangentInAllQuadrants)
