@@ -117,6 +117,14 @@ template <class Real>
 void addRows(const Joint&, Index index, const JointFrame&, const BodyState<Real>* states, Index a, Index b, double h,
              std::vector<JointRow<Real>>&);
 
+template <class Real>
+double kineticEnergy(const BodyState<Real>& s)
+{
+    const auto x = static_cast<double>(s.velocityX), y = static_cast<double>(s.velocityY),
+               w = static_cast<double>(s.spin);
+    return s.invMass > 0 ? (x * x + y * y + w * w) / (2 * static_cast<double>(s.invMass)) : 0;
+}
+
 Softness<double> softnessOf(double hertz, double dampingRatio, double h);
 
 }  // namespace jet::physics

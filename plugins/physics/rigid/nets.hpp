@@ -81,14 +81,6 @@ private:
     std::vector<double> gained_;  // [bodies] of their islands, at the roots
 };
 
-template <class Real>
-double kineticEnergy(const BodyState<Real>& s)
-{
-    const auto x = static_cast<double>(s.velocityX), y = static_cast<double>(s.velocityY),
-               w = static_cast<double>(s.spin);
-    return s.invMass > 0 ? (x * x + y * y + w * w) / (2 * static_cast<double>(s.invMass)) : 0;
-}
-
 template <class Real, class PlaceOf>
 void Nets::restrain(Solver<Real>& solver, const Collider& collider, std::vector<Joint>& joints,
                     std::span<const Budget> budgets, PlaceOf&& place)

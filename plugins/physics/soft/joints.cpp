@@ -198,10 +198,16 @@ void Joints::solve(State& state, Held& held, bool push)
         }
     }
     const Softness<double> standard = softnessOf(std::min(kHertz, kHertzPerSubstepRate / h_), kDampingRatio, h_);
+    const auto energy = [&] { return kineticEnergy(ends_[1]) + kineticEnergy(ends_[2]); };
+    if (push) held.work = held.stored = 0;
+    for (const JointRow<double>& row : rows_) (push ? held.stored : held.work) += row.springEnergy(row.error);
+    held.work -= energy();
     if (push)
         for (const JointRow<double>& row : rows_) row.warm(ends_.data());
     for (int pass = 0; pass < kPasses; ++pass)
         for (JointRow<double>& row : rows_) row.solve(ends_.data(), standard, 1 / h_, push);
+    held.work += energy();
+    if (!push) takeGain(held);
     give(state, held.a, a, ends_[1]);
     give(state, held.b, b, ends_[2]);
     for (const JointRow<double>& row : rows_) {
@@ -209,6 +215,22 @@ void Joints::solve(State& state, Held& held, bool push)
         if (push) continue;
         held.pushed += row.impulse * Vec2(row.bx, row.by);
         if (row.bx == 0 && row.by == 0) held.turned += row.torqueOfB();
+    }
+}
+
+/// A joint to what does not move does no work, beside that of its spring. A push that led elsewhere than it was meant
+/// to, as the patch gave way, may have done some.
+void Joints::takeGain(Held& held)
+{
+    const double gain = held.work - held.stored;
+    if (held.joint.def.driven || held.joint.def.kind == JointDef::Kind::Motor || !(gain > 0)) return;
+    for (BodyState<double>* end : {&ends_[1], &ends_[2]}) {
+        const BodyState<double>& other = ends_[end == &ends_[1] ? 2 : 1];
+        const double has = kineticEnergy(*end);
+        if (!(has > 0) || other.invMass > 0 || other.velocityX != 0 || other.velocityY != 0 || other.spin != 0)
+            continue;
+        const double kept = std::sqrt(std::max(0.0, has - gain) / has);
+        end->velocityX *= kept, end->velocityY *= kept, end->spin *= kept;
     }
 }
 

@@ -74,6 +74,7 @@ private:
         Hold a, b;
         Vec2 pushed = Vec2(0, 0);  // impulses on b in this step
         double turned = 0;
+        double work = 0, stored = 0;  // of this substep: done on the ends; in springs at its start
     };
 
     static Hold hold(const State&, const Anchor&);
@@ -84,6 +85,7 @@ private:
     bool settle(Held&, double dt);
     static bool pulls(const State&, const Held&);
     void solve(State&, Held&, bool push);
+    void takeGain(Held&);
 
     std::vector<Held> joints_;
     double h_ = 0;
