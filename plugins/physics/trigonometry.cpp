@@ -56,13 +56,11 @@ double atanInUnit(double x)
 Vec2 direction(double angle)
 {
     constexpr double kRounds = 6755399441055744;  // adding it rounds to a whole number
-    const double quarters = angle * (2 / kPi);
-    const bool usual = std::abs(angle) < 1e9;
-    const double turns = usual ? (quarters + kRounds) - kRounds : std::floor(quarters + 0.5);
+    if (!(std::abs(angle) < 1e9)) angle = std::remainder(angle, 2 * kPi);
+    const double turns = (angle * (2 / kPi) + kRounds) - kRounds;
     const Both at = nearZero((angle - turns * kHalfPiHigh) - turns * kHalfPiLow);
     // No branches: what bodies turn to is as good as random.
-    const auto quarter =
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(usual ? turns : turns - 4 * std::floor(turns / 4))) & 3;
+    const auto quarter = static_cast<std::uint64_t>(static_cast<std::int64_t>(turns)) & 3;
     const bool odd = (quarter & 1) != 0;
     const auto signedBy = [](double value, std::uint64_t negative) {
         return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ (negative << 63));
