@@ -231,7 +231,7 @@ void Collider::renew(RigidContact& c, const Manifold& m, const Relative& at, flo
         const ManifoldPoint& p = m.points[i];
         c.onA[i] = p.onA, c.onB[i] = p.onB, c.ids[i] = p.id, c.separation[i] = p.separation;
         c.impulse[i] = c.tangentImpulse[i] = 0;
-        for (int k = 0; k < count; ++k)
+        for (int k = 0; k < std::min(count, 2); ++k)
             if (ids[k] == p.id) c.impulse[i] = impulses[k], c.tangentImpulse[i] = tangents[k];
     }
 }

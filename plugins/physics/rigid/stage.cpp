@@ -514,7 +514,7 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
         const Index a = collider_.bodies()[c.bodyA].handle, b = collider_.bodies()[c.bodyB].handle;
         const Pose& pose = collider_.poses()[c.bodyA];
         const Vec2f normal = turned(pose.turn, c.normal);
-        for (int k = 0; k < c.count; ++k) {
+        for (int k = 0; k < std::min<int>(c.count, 2); ++k) {
             if (c.resolve && !(totals[k] > 0) && c.separation[k] > c.slop) continue;  // only near
             const Vec2f on = turned(pose.turn, c.onA[k]);
             Contact contact;
