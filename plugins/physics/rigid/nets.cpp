@@ -12,6 +12,12 @@ constexpr double kReserve = 0.05;  // of the kinetic energy
 constexpr double kAttention = 1;   // seconds
 constexpr std::size_t kFew = 512;
 
+template <class Real>
+Vec2 velocityOf(const BodyState<Real>& s)
+{
+    return {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
+}
+
 bool movesNow(const RigidBody& body) { return body.moves && !body.asleep; }
 
 }  // namespace
@@ -71,13 +77,21 @@ void Nets::gather(const std::vector<Joint>& joints, const std::vector<RigidBody>
     }
 }
 
+/// Of nets: work(body, net, state).
+template <class Real, class Work>
+void Nets::eachBody(const Step<Real>& step, Work&& work)
+{
+    for (Index i = 1; i < netAt_.size(); ++i)
+        if (netAt_[i] != kNone) work(i, nets_[netAt_[i]], step.solver.body(i));
+}
+
 /// Of springs and motors.
 template <class Real>
-void Nets::addWork(const Solver<Real>& solver, const std::vector<Joint>& joints, const std::vector<RigidBody>& bodies)
+void Nets::addWork(const Step<Real>& step)
 {
-    solver.eachRow([&](const JointRow<Real>& row, Real error) {
+    step.solver.eachRow([&](const JointRow<Real>& row, Real error) {
         if (!row.soft && !row.velocityOnly) return;
-        const Index net = netOf(joints[row.joint], bodies);
+        const Index net = netOf(step.joints[row.joint], step.bodies());
         if (net == kNone) return;
         if (row.velocityOnly) nets_[net].allowed += static_cast<double>(row.given);
         nets_[net].allowed += static_cast<double>(row.stored - row.springEnergy(error));
@@ -110,9 +124,11 @@ bool Nets::settle()
 
 /// A net that others pushed has no more than its island has too much.
 template <class Real>
-void Nets::allowExchange(const Solver<Real>& solver, const Collider& collider, std::span<const Budget> budgets)
+void Nets::allowExchange(const Step<Real>& step)
 {
-    const std::vector<RigidBody>& bodies = collider.bodies();
+    const std::vector<RigidBody>& bodies = step.bodies();
+    const Collider& collider = step.collider;
+    const Solver<Real>& solver = step.solver;
     const auto eachPush = [&](auto&& work) {
         for (std::size_t i = 0; i < collider.places().size(); ++i) {
             const Place at = collider.places()[i];
@@ -132,7 +148,7 @@ void Nets::allowExchange(const Solver<Real>& solver, const Collider& collider, s
     gained_.assign(bodies.size(), 0);
     for (Index i = 1; i < bodies.size(); ++i)
         if (movesNow(bodies[i]) && bodies[i].enabled && netAt_[i] == kNone)
-            gained_[rootOf(i)] += kineticEnergy(solver.body(i)) - budgets[i].energy;
+            gained_[rootOf(i)] += kineticEnergy(solver.body(i)) - step.budgets[i].energy;
     for (const Net& net : nets_) gained_[rootOf(net.body)] += net.after - net.allowed;
     eachPush([&](const RigidContact& c, double impulse) {
         for (const auto& [driver, other] : {std::pair(c.bodyA, c.bodyB), std::pair(c.bodyB, c.bodyA)}) {
@@ -146,9 +162,108 @@ void Nets::allowExchange(const Solver<Real>& solver, const Collider& collider, s
     for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, gained_[rootOf(net.body)]));
 }
 
-template void Nets::addWork(const Solver<float>&, const std::vector<Joint>&, const std::vector<RigidBody>&);
-template void Nets::addWork(const Solver<double>&, const std::vector<Joint>&, const std::vector<RigidBody>&);
-template void Nets::allowExchange(const Solver<float>&, const Collider&, std::span<const Budget>);
-template void Nets::allowExchange(const Solver<double>&, const Collider&, std::span<const Budget>);
+/// What is held by something that moves by itself may be thrown at twice its speed.
+template <class Real>
+void Nets::allowCarriers(const Step<Real>& step)
+{
+    for (const Joint& joint : step.joints)
+        for (const Index driver : {joint.a, joint.b}) {
+            const Index carried = netOf(joint, step.bodies());
+            if (!step.bodies()[driver].kinematic || carried == kNone) continue;
+            const BodyState<Real>& s = step.solver.body(driver);
+            const double straight = velocityOf(s).norm(), omega = std::abs(static_cast<double>(s.omega()));
+            eachBody(step, [&](Index i, Net& net, const BodyState<Real>& held) {
+                if (&net != &nets_[carried]) return;
+                const double arm = (step.budgets[i].place - step.budgets[driver].place).norm();
+                net.carried += 2 * std::pow(straight + omega * arm, 2) / static_cast<double>(held.invMass);
+            });
+        }
+    for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, net.after - net.carried));
+}
+
+/// How those nets move as a whole that have too much. Anchors hold the whole as well: all motion is within then.
+template <class Real>
+void Nets::findWhole(const Step<Real>& step)
+{
+    eachBody(step, [&](Index i, Net& net, const BodyState<Real>& s) {
+        if (!(net.excess > 0)) return;
+        const double mass = 1 / static_cast<double>(s.invMass);
+        net.mass += mass, net.centre += mass * step.budgets[i].place, net.velocity += mass * velocityOf(s);
+    });
+    for (Net& net : nets_)
+        if (net.mass > 0) net.centre /= net.mass, net.velocity /= net.mass;
+    eachBody(step, [&](Index i, Net& net, const BodyState<Real>& s) {
+        if (!(net.excess > 0)) return;
+        const double mass = 1 / static_cast<double>(s.invMass), k = s.perGyration > 0 ? step.bodies()[i].gyration : 0;
+        const Vec2 arm = step.budgets[i].place - net.centre;
+        net.spin += mass * (cross(arm, Vec2(velocityOf(s) - net.velocity)) + k * static_cast<double>(s.spin));
+        net.inertia += mass * (arm.squaredNorm() + k * k);
+    });
+    for (Net& net : nets_) {
+        net.omega = net.inertia > 0 ? net.spin / net.inertia : 0;
+        if (net.anchored) net.velocity = Vec2(0, 0), net.omega = 0;
+    }
+}
+
+/// The velocities a body would have if its net were rigid.
+template <class Real>
+BodyState<Real> Nets::ofWhole(const Step<Real>& step, Index body, const Net& net)
+{
+    BodyState<Real> s = step.solver.body(body);
+    const Vec2 velocity = net.velocity + net.omega * perpendicular(step.budgets[body].place - net.centre);
+    s.velocityX = static_cast<Real>(velocity.x()), s.velocityY = static_cast<Real>(velocity.y());
+    s.spin = static_cast<Real>(s.perGyration > 0 ? net.omega * step.bodies()[body].gyration : 0);
+    return s;
+}
+
+template <class Real>
+void Nets::takeExcess(const Step<Real>& step)
+{
+    eachBody(step, [&](Index i, Net& net, const BodyState<Real>& s) {
+        if (!(net.excess > 0)) return;
+        const BodyState<Real> whole = ofWhole(step, i, net);
+        BodyState<Real> apart = s;
+        apart.velocityX -= whole.velocityX, apart.velocityY -= whole.velocityY, apart.spin -= whole.spin;
+        net.within += kineticEnergy(apart);
+    });
+    for (Net& net : nets_)
+        if (net.excess > 0) net.kept = net.within > net.excess ? std::sqrt((net.within - net.excess) / net.within) : 0;
+    eachBody(step, [&](Index i, Net& net, BodyState<Real>& s) {
+        if (!(net.excess > 0)) return;
+        const BodyState<Real> whole = ofWhole(step, i, net);
+        // Energy beyond that within came with momentum, of joints torn far apart.
+        const double outer = net.after - net.within, rest = net.excess - net.within;
+        const bool torn = rest > 0 && outer > 0;
+        const auto moves = static_cast<Real>(torn ? std::sqrt(std::max(0.0, outer - rest) / outer) : 1);
+        const auto kept = static_cast<Real>(net.kept);
+        s.velocityX = moves * whole.velocityX + kept * (s.velocityX - whole.velocityX);
+        s.velocityY = moves * whole.velocityY + kept * (s.velocityY - whole.velocityY);
+        s.spin = moves * whole.spin + kept * (s.spin - whole.spin);
+    });
+    // Impulses that forces alone may explain bear them in the next step as well.
+    step.solver.scaleJoints(step.joints, [&](const Joint& joint) {
+        const Index net = netOf(joint, step.bodies());
+        return net == kNone || nets_[net].excess < nets_[net].jolt ? 1 : nets_[net].kept;
+    });
+}
+
+template <class Real>
+void Nets::restrain(const Step<Real>& step)
+{
+    gather(step.joints, step.bodies());
+    eachBody(step, [&](Index i, Net& net, const BodyState<Real>& s) {
+        const Budget& budget = step.budgets[i];
+        net.after += kineticEnergy(s), net.allowed += budget.energy, net.jolt += budget.jolt;
+    });
+    addWork(step);
+    if (!settle()) return;
+    allowExchange(step);
+    allowCarriers(step);
+    findWhole(step);
+    takeExcess(step);
+}
+
+template void Nets::restrain(const Step<float>&);
+template void Nets::restrain(const Step<double>&);
 
 }  // namespace jet::physics

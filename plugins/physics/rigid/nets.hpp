@@ -12,7 +12,6 @@
 #include "collider.hpp"
 #include "solver.hpp"
 
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -23,15 +22,25 @@ public:
     /// Is their energy to be looked at, in a step of dt seconds in which a joint was, or was not, strained? It always
     /// is where there are few joints.
     bool due(std::size_t joints, bool strained, double dt);
-    /// What a body may have after a step, mass units² / s².
+    /// Of a body after a step; energies in mass units² / s².
     struct Budget {
         double energy = 0;  // kinetic, at its start, and the work of forces since
         double jolt = 0;    // kinetic energy that forces give one at rest in it
+        Vec2 place{0, 0};   // where its centre is now
     };
-    /// After the solver has finished with a step. `budgets`: [bodies]. `place(body)`: where its centre is now.
-    template <class Real, class PlaceOf>
-    void restrain(Solver<Real>&, const Collider&, std::vector<Joint>&, std::span<const Budget> budgets,
-                  PlaceOf&& place);
+    /// What a step left.
+    template <class Real>
+    struct Step {
+        Solver<Real>& solver;
+        const Collider& collider;
+        std::vector<Joint>& joints;
+        std::span<const Budget> budgets;  // [bodies]
+
+        const std::vector<RigidBody>& bodies() const { return collider.bodies(); }
+    };
+    /// After the solver has finished with a step.
+    template <class Real>
+    void restrain(const Step<Real>&);
 
     template <class Archive>
     void archive(Archive& with)
@@ -64,11 +73,21 @@ private:
     static bool takesPart(const Joint&, const std::vector<RigidBody>&);
     void gather(const std::vector<Joint>&, const std::vector<RigidBody>&);
     Index netOf(const Joint&, const std::vector<RigidBody>&) const;
+    template <class Real, class Work>
+    void eachBody(const Step<Real>&, Work&& work);
     template <class Real>
-    void addWork(const Solver<Real>&, const std::vector<Joint>&, const std::vector<RigidBody>&);
+    void addWork(const Step<Real>&);
     bool settle();
     template <class Real>
-    void allowExchange(const Solver<Real>&, const Collider&, std::span<const Budget>);
+    void allowExchange(const Step<Real>&);
+    template <class Real>
+    void allowCarriers(const Step<Real>&);
+    template <class Real>
+    void findWhole(const Step<Real>&);
+    template <class Real>
+    void takeExcess(const Step<Real>&);
+    template <class Real>
+    static BodyState<Real> ofWhole(const Step<Real>&, Index body, const Net&);
     Index rootOf(Index body);
     void unite(Index a, Index b);
 
@@ -80,95 +99,5 @@ private:
     std::vector<Index> netAt_;    // [bodies] kNone: in none
     std::vector<double> gained_;  // [bodies] of their islands, at the roots
 };
-
-template <class Real, class PlaceOf>
-void Nets::restrain(Solver<Real>& solver, const Collider& collider, std::vector<Joint>& joints,
-                    std::span<const Budget> budgets, PlaceOf&& place)
-{
-    const std::vector<RigidBody>& bodies = collider.bodies();
-    gather(joints, bodies);
-    const auto each = [&](auto&& work) {
-        for (Index i = 1; i < bodies.size(); ++i)
-            if (netAt_[i] != kNone) work(i, nets_[netAt_[i]], solver.body(i));
-    };
-    each([&](Index i, Net& net, const BodyState<Real>& s) {
-        net.after += kineticEnergy(s), net.allowed += budgets[i].energy, net.jolt += budgets[i].jolt;
-    });
-    addWork(solver, joints, bodies);
-    if (!settle()) return;
-    allowExchange(solver, collider, budgets);
-    for (const Joint& joint : joints)
-        for (const Index driver : {joint.a, joint.b}) {
-            if (!bodies[driver].kinematic || netOf(joint, bodies) == kNone) continue;
-            // What is held by something that moves by itself may be thrown at twice its speed.
-            const BodyState<Real>& s = solver.body(driver);
-            Net& net = nets_[netOf(joint, bodies)];
-            each([&](Index i, Net& of, const BodyState<Real>& held) {
-                if (&of != &net) return;
-                const double speed = std::hypot(static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)) +
-                                     std::abs(static_cast<double>(s.omega())) * (place(i) - place(driver)).norm();
-                net.carried += 2 * speed * speed / static_cast<double>(held.invMass);
-            });
-        }
-    for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, net.after - net.carried));
-
-    const auto velocity = [](const BodyState<Real>& s) {
-        return Vec2(static_cast<double>(s.velocityX), static_cast<double>(s.velocityY));
-    };
-    each([&](Index i, Net& net, const BodyState<Real>& s) {
-        if (!(net.excess > 0)) return;
-        const double mass = 1 / static_cast<double>(s.invMass);
-        net.mass += mass, net.centre += mass * place(i), net.velocity += mass * velocity(s);
-    });
-    for (Net& net : nets_)
-        if (net.mass > 0) net.centre /= net.mass, net.velocity /= net.mass;
-    each([&](Index i, Net& net, const BodyState<Real>& s) {
-        if (!(net.excess > 0)) return;
-        const double mass = 1 / static_cast<double>(s.invMass), k = s.perGyration > 0 ? bodies[i].gyration : 0;
-        const Vec2 arm = place(i) - net.centre;
-        net.spin += mass * (cross(arm, Vec2(velocity(s) - net.velocity)) + k * static_cast<double>(s.spin));
-        net.inertia += mass * (arm.squaredNorm() + k * k);
-    });
-    // Anchors hold the whole as well: all its motion is within.
-    for (Net& net : nets_) {
-        net.omega = net.inertia > 0 ? net.spin / net.inertia : 0;
-        if (net.anchored) net.velocity = Vec2(0, 0), net.omega = 0;
-    }
-    /// Of the whole, where the body is.
-    const auto whole = [&](Index i, const Net& net, const BodyState<Real>& s) {
-        const Vec2 arm = place(i) - net.centre;
-        BodyState<Real> carried = s;
-        carried.velocityX = static_cast<Real>(net.velocity.x() - net.omega * arm.y());
-        carried.velocityY = static_cast<Real>(net.velocity.y() + net.omega * arm.x());
-        carried.spin = static_cast<Real>(s.perGyration > 0 ? net.omega * bodies[i].gyration : 0);
-        return carried;
-    };
-    each([&](Index i, Net& net, const BodyState<Real>& s) {
-        if (!(net.excess > 0)) return;
-        BodyState<Real> apart = s;
-        const BodyState<Real> with = whole(i, net, s);
-        apart.velocityX -= with.velocityX, apart.velocityY -= with.velocityY, apart.spin -= with.spin;
-        net.within += kineticEnergy(apart);
-    });
-    for (Net& net : nets_)
-        if (net.excess > 0) net.kept = net.within > net.excess ? std::sqrt((net.within - net.excess) / net.within) : 0;
-    each([&](Index i, Net& net, BodyState<Real>& s) {
-        if (!(net.excess > 0)) return;
-        BodyState<Real> with = whole(i, net, s);
-        // Energy beyond that came with momentum, of joints torn far apart.
-        const double outer = net.after - net.within, rest = net.excess - net.within;
-        const auto moves =
-            static_cast<Real>(rest > 0 && outer > 0 ? std::sqrt(std::max(0.0, outer - rest) / outer) : 1);
-        const auto kept = static_cast<Real>(net.kept);
-        s.velocityX = moves * with.velocityX + kept * (s.velocityX - with.velocityX);
-        s.velocityY = moves * with.velocityY + kept * (s.velocityY - with.velocityY);
-        s.spin = moves * with.spin + kept * (s.spin - with.spin);
-    });
-    // Impulses that forces alone may explain bear them in the next step as well.
-    solver.scaleJoints(joints, [&](const Joint& joint) {
-        const Index net = netOf(joint, bodies);
-        return net == kNone || nets_[net].excess < nets_[net].jolt ? 1 : nets_[net].kept;
-    });
-}
 
 }  // namespace jet::physics

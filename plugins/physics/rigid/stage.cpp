@@ -305,6 +305,7 @@ void RigidStage::restrain(Solver<Real>& solver, const State& state, double dt)
     budgets_.assign(bodies.size(), {});
     for (Index i = 1; i < bodies.size(); ++i) {
         const BodyState<Real>& s = solver.body(i);
+        budgets_[i].place = nodes.position[bodies[i].node] + Vec2(s.moveX, s.moveY);
         if (s.invMass == 0 || !bodies[i].takesPart()) continue;
         const BodyPush<Real>& force = solver.pushOf(i);
         const double k = bodies[i].gyration, mass = 1 / static_cast<double>(s.invMass);
@@ -317,10 +318,7 @@ void RigidStage::restrain(Solver<Real>& solver, const State& state, double dt)
         budgets_[i].jolt =
             mass / 2 * dt * dt * (acceleration.squaredNorm() + std::pow(static_cast<double>(force.accelerationW), 2));
     }
-    nets_.restrain(solver, collider_, joints_, budgets_, [&](Index i) {
-        const BodyState<Real>& s = solver.body(i);
-        return Vec2(nodes.position[bodies[i].node] + Vec2(s.moveX, s.moveY));
-    });
+    nets_.restrain(Nets::Step<Real>{solver, collider_, joints_, budgets_});
 }
 
 /// Moves the nodes, but nothing fast through what was not foreseen.
@@ -446,9 +444,11 @@ void RigidStage::finish(State& state, bool bounce)
     exchange(state, false);
     if (bounce) double_.bounce();
     double_.finish(collider_, joints_);
-    if (!joints_.empty() && nets_.due(joints_.size(), double_.strained(), substeps_ * double_.shape().h))
-        nets_.restrain(double_, collider_, joints_, budgets_,
-                       [&](Index i) { return state.nodes.position[collider_.bodies()[i].node]; });
+    if (!joints_.empty() && nets_.due(joints_.size(), double_.strained(), substeps_ * double_.shape().h)) {
+        for (Index i = 1; i < collider_.bodies().size(); ++i)
+            budgets_[i].place = state.nodes.position[collider_.bodies()[i].node];
+        nets_.restrain(Nets::Step<double>{double_, collider_, joints_, budgets_});
+    }
     exchange(state, true);
     for (Index i = 1; i < collider_.bodies().size(); ++i) {
         const RigidBody& body = collider_.bodies()[i];
