@@ -1,4 +1,5 @@
 // What sleeps, what wakes it, and the groups bodies move in.
+#include "disjoint_sets.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -75,18 +76,13 @@ const std::vector<Index>& World::islands() const
     self.islands_.assign(state_.bodies.size(), kNone);
     std::vector<Index> root(state_.bodies.size());
     std::iota(root.begin(), root.end(), Index{0});
-    const auto rootOf = [&](Index body) {
-        while (root[body] != body) body = root[body] = root[root[body]];
-        return body;
-    };
     const auto grouped = [&](Index body) {
         const BodyRecord& is = state_.bodies[body];
         return !is.fixed && !is.kinematic && !is.asleep && is.enabled;
     };
     const auto join = [&](Index a, Index b) {
         if (a == kNone || b == kNone || !grouped(a) || !grouped(b)) return;
-        a = rootOf(a), b = rootOf(b);
-        root[std::max(a, b)] = std::min(a, b);
+        unite(root, a, b);
     };
     for (const std::uint64_t pair : touching_) {
         const Index a = static_cast<Index>(pair >> 32), b = static_cast<Index>(pair);
@@ -100,7 +96,7 @@ const std::vector<Index>& World::islands() const
     }
     Index count = 0;
     for (Index body = 0; body < root.size(); ++body)
-        if (grouped(body)) self.islands_[body] = root[body] == body ? count++ : islands_[rootOf(body)];
+        if (grouped(body)) self.islands_[body] = root[body] == body ? count++ : islands_[rootOf(root, body)];
     self.stats_.islands = count;
     return islands_;
 }

@@ -1,5 +1,7 @@
 #include "nets.hpp"
 
+#include "disjoint_sets.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -29,18 +31,6 @@ bool Nets::due(std::size_t joints, bool strained, double dt)
     return attention_ > 0;
 }
 
-Index Nets::rootOf(Index body)
-{
-    while (group_[body] != body) body = group_[body] = group_[group_[body]];
-    return body;
-}
-
-void Nets::unite(Index a, Index b)
-{
-    a = rootOf(a), b = rootOf(b);
-    group_[std::max(a, b)] = std::min(a, b);
-}
-
 bool Nets::takesPart(const Joint& joint, const std::vector<RigidBody>& bodies)
 {
     return joint.lives() && bodies[joint.a].takesPart() && bodies[joint.b].takesPart() &&
@@ -60,12 +50,13 @@ void Nets::gather(const std::vector<Joint>& joints, const std::vector<RigidBody>
     netAt_.assign(bodies.size(), kNone);
     nets_.clear();
     for (const Joint& joint : joints)
-        if (takesPart(joint, bodies) && movesNow(bodies[joint.a]) && movesNow(bodies[joint.b])) unite(joint.a, joint.b);
+        if (takesPart(joint, bodies) && movesNow(bodies[joint.a]) && movesNow(bodies[joint.b]))
+            unite(group_, joint.a, joint.b);
     for (Index index = 0; index < joints.size(); ++index) {
         const Joint& joint = joints[index];
         if (!takesPart(joint, bodies)) continue;
         const bool movesA = movesNow(bodies[joint.a]), movesB = movesNow(bodies[joint.b]);
-        const Index root = rootOf(movesA ? joint.a : joint.b);
+        const Index root = rootOf(group_, movesA ? joint.a : joint.b);
         if (netAt_[root] == kNone) {
             netAt_[root] = static_cast<Index>(nets_.size());
             nets_.emplace_back().joint = index;
@@ -142,24 +133,24 @@ void Nets::allowExchange(const Step<Real>& step)
     bool any = false;
     eachPush([&](const RigidContact& c, double) {
         any = true;
-        if (movesNow(bodies[c.bodyA]) && movesNow(bodies[c.bodyB])) unite(c.bodyA, c.bodyB);
+        if (movesNow(bodies[c.bodyA]) && movesNow(bodies[c.bodyB])) unite(group_, c.bodyA, c.bodyB);
     });
     if (!any) return;
     gained_.assign(bodies.size(), 0);
     for (Index i = 1; i < bodies.size(); ++i)
         if (movesNow(bodies[i]) && bodies[i].enabled && netAt_[i] == kNone)
-            gained_[rootOf(i)] += kineticEnergy(solver.body(i)) - step.budgets[i].energy;
-    for (const Net& net : nets_) gained_[rootOf(net.body)] += net.after - net.allowed;
+            gained_[rootOf(group_, i)] += kineticEnergy(solver.body(i)) - step.budgets[i].energy;
+    for (const Net& net : nets_) gained_[rootOf(group_, net.body)] += net.after - net.allowed;
     eachPush([&](const RigidContact& c, double impulse) {
         for (const auto& [driver, other] : {std::pair(c.bodyA, c.bodyB), std::pair(c.bodyB, c.bodyA)}) {
             if (!bodies[driver].kinematic || !movesNow(bodies[other])) continue;
             const BodyState<Real>& s = solver.body(driver);
             const double speed = std::hypot(static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)) +
                                  std::abs(static_cast<double>(s.omega())) * static_cast<double>(bodies[driver].reach);
-            gained_[rootOf(other)] -= speed * impulse * (1 + static_cast<double>(c.friction));
+            gained_[rootOf(group_, other)] -= speed * impulse * (1 + static_cast<double>(c.friction));
         }
     });
-    for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, gained_[rootOf(net.body)]));
+    for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, gained_[rootOf(group_, net.body)]));
 }
 
 /// What is held by something that moves by itself may be thrown at twice its speed.

@@ -88,8 +88,6 @@ private:
     void takeExcess(const Step<Real>&);
     template <class Real>
     static BodyState<Real> ofWhole(const Step<Real>&, Index body, const Net&);
-    Index rootOf(Index body);
-    void unite(Index a, Index b);
 
     double attention_ = 0;  // seconds for which it goes on looking
     std::vector<Ledger> ledgers_, former_;

@@ -5,6 +5,7 @@
 // and in balance as well: its velocity must not be about to change, as it does under any force that is not borne. What
 // touches others may be faster, and may tremble, as bodies in large piles do: it rests as well when it has not come
 // away for two seconds.
+#include "disjoint_sets.hpp"
 #include "room.hpp"
 #include "stage.hpp"
 
@@ -105,20 +106,8 @@ void RigidStage::rest(State& state, const WorldSettings& settings, const Bonds& 
     unite(state, bonds);
     // One that moves keeps all of its group awake.
     for (Index i = 1; i < count; ++i)
-        if (group_[i] != kNone && still_[i] != Stillness::Rests) still_[rootOf(i)] = Stillness::Moves;
+        if (group_[i] != kNone && still_[i] != Stillness::Rests) still_[rootOf(group_, i)] = Stillness::Moves;
     fallAsleep(state);
-}
-
-Index RigidStage::rootOf(Index body)
-{
-    while (group_[body] != body) body = group_[body] = group_[group_[body]];
-    return body;
-}
-
-void RigidStage::join(Index a, Index b)
-{
-    a = rootOf(a), b = rootOf(b);
-    group_[std::max(a, b)] = std::min(a, b);
 }
 
 /// Groups of the bodies that are awake, by their least body.
@@ -131,7 +120,7 @@ void RigidStage::unite(const State& state, const Bonds& bonds)
     for (Index i = 1; i < bodies.size(); ++i)
         if (!bodies[i].asleep) group_[i] = bodies[i].moves ? i : kNone;
     const auto hold = [&](Index a, Index b) {
-        if (grouped(a) && grouped(b)) return join(a, b);
+        if (grouped(a) && grouped(b)) return physics::unite(group_, a, b);
         if (grouped(a) && driven(b, state)) still_[a] = Stillness::Moves;
         if (grouped(b) && driven(a, state)) still_[b] = Stillness::Moves;
     };
@@ -157,7 +146,7 @@ void RigidStage::fallAsleep(State& state)
     for (Index i = 1; i < bodies.size(); ++i) {
         RigidBody& body = bodies[i];
         if (!body.moves || body.asleep) continue;
-        const Index root = rootOf(i);
+        const Index root = rootOf(group_, i);
         if (still_[root] != Stillness::Rests) continue;
         group_[i] = root;
         body.asleep = true, body.posed = false;

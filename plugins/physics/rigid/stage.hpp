@@ -167,8 +167,6 @@ private:
     Stillness stillness(Index body, const State&, double gravity, double interval);
     bool driven(Index body, const State&) const;
     void unite(const State&, const Bonds&);
-    Index rootOf(Index body);
-    void join(Index a, Index b);
     void fallAsleep(State&);
     void scaleSleeping(double h);
     void activate(bool singles);
