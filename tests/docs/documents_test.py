@@ -131,6 +131,17 @@ def links(_):
     check(not broken, f"links that lead nowhere: {broken}")
 
 
+def proofs(_):
+    """Each test that the page on what proves the physics engine names is a test of the tree."""
+    page = "docs/physics-validation.md"
+    macro = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.M)
+    there = {".".join(found) for file in SOURCE.glob("tests/**/*.cpp") for found in macro.findall(file.read_text(encoding="utf-8"))}
+    named = re.findall(r"`(\w+\.[A-Z]\w+)`", read(page))
+    check(len(named) > 50, f"{page} names only {len(named)} tests")
+    gone = sorted(set(named) - there)
+    check(not gone, f"{page} names tests that are not there: {gone}")
+
+
 def hello_tool(scratch):
     """The first chapter of the guide shows the example's files. scripts/check-examples builds all chapters."""
     extract("docs/guide/1-hello-tool.md", scratch)
