@@ -109,6 +109,14 @@ void Actuators::setSpring(ActuatorHandle handle, double restLength, double ks, d
     spring.tearLength = tearRatio > 0 ? spring.restLength * tearRatio : 0;
 }
 
+bool Actuators::isSet(ActuatorHandle handle, double restLength, double ks, double kd, double tearRatio) const
+{
+    const Spring& spring = springs_[handle];
+    const double tearLength = tearRatio > 0 ? spring.restLength * tearRatio : 0;
+    return (restLength < 0 || restLength == spring.restLength) && ks == spring.ks && kd == spring.kd &&
+           tearLength == spring.tearLength;
+}
+
 /// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
 void Actuators::addTo(StiffnessBounds& bounds, const State& state) const
 {

@@ -20,6 +20,8 @@ public:
     Index angularSpringCount() const { return static_cast<Index>(angularSprings_.size()); }
     /// restLength < 0: as it is. What is torn stays torn.
     void setSpring(ActuatorHandle, double restLength, double ks, double kd, double tearRatio);
+    /// Would that change nothing?
+    bool isSet(ActuatorHandle, double restLength, double ks, double kd, double tearRatio) const;
     void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }
     void setForce(ActuatorHandle handle, const Vec2& value) { forces_[handle].force = value; }
     double torque(ActuatorHandle handle) const { return torques_[handle].value; }

@@ -42,6 +42,13 @@ void ForceFields::set(Index field, const ForceFieldDef& def)
     fields_[field].def.kind = kind;
 }
 
+bool ForceFields::isSet(Index field, const ForceFieldDef& def) const
+{
+    const ForceFieldDef& now = fields_[field].def;
+    return def.region == now.region && def.vector == now.vector && def.centre == now.centre &&
+           def.strength == now.strength && def.reach == now.reach && def.drag == now.drag;
+}
+
 void ForceFields::restored()
 {
     for (Field& field : fields_) field.region = gridOver(field.def.region);

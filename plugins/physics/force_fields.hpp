@@ -14,6 +14,8 @@ class ForceFields {
 public:
     Index add(const ForceFieldDef&);
     void set(Index field, const ForceFieldDef&);
+    /// Would that change nothing?
+    bool isSet(Index field, const ForceFieldDef&) const;
     Index count() const { return static_cast<Index>(fields_.size()); }
 
     /// Adds the forces of all fields to the nodes, for a substep of h.

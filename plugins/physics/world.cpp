@@ -224,7 +224,7 @@ BodyHandle World::finishBody(const BodyCommon& common)
     complex_ += !state_.bodies[handle].simple;
     if (!lean_) extendReadings();
     rate_ = -1;
-    untold_ = true;
+    islandsKnown_ = false;
     reread(handle);
     setVelocity(handle, common.velocity);
     setOmega(handle, common.omega);

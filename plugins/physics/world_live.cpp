@@ -2,24 +2,42 @@
 #include "validation.hpp"
 #include "world.hpp"
 
+#include <tuple>
+
 namespace jet::physics {
 
-void World::setSettings(const WorldSettings& settings)
+namespace {
+
+bool isLike(const MaterialPair& a, const MaterialPair& b)
 {
-    checks().check(settings);
-    if (settings.materialCount != settings_.materialCount)
+    return a.friction == b.friction && a.restitution == b.restitution && a.collides == b.collides;
+}
+
+/// In all that decides how things move, but for the materials.
+bool isLike(const WorldSettings& a, const WorldSettings& b)
+{
+    const auto parts = [](const WorldSettings& s) {
+        return std::tie(s.linearDamping, s.angularDamping, s.applyGravity, s.applyDamping, s.findCollisions,
+                        s.resolveCollisions, s.substeps, s.method, s.allowSleep);
+    };
+    return a.gravity == b.gravity && parts(a) == parts(b);
+}
+
+}  // namespace
+
+void World::setSettings(const WorldSettings& wanted)
+{
+    checks().check(wanted);
+    if (wanted.materialCount != settings_.materialCount)
         throw Failure(Error("Physics: the count of materials cannot change while the world runs; it is " +
                             std::to_string(settings_.materialCount) + "."));
-    const auto same = [](const MaterialPair& a, const MaterialPair& b) {
-        return a.friction == b.friction && a.restitution == b.restitution && a.collides == b.collides;
-    };
-    const bool kept =
-        std::equal(settings.materials.begin(), settings.materials.end(), settings_.materials.begin(), same);
-    const Precision precision = settings_.precision;
-    const Simd simd = settings_.simd;
-    settings_ = settings;
-    settings_.precision = precision, settings_.simd = simd;
-    rigid_.wakeAll(state_);
+    WorldSettings settings = wanted;
+    settings.precision = settings_.precision, settings.simd = settings_.simd;
+    if (settings.method == Method::SemiImplicitEuler) settings.substeps = 1;
+    const bool kept = std::equal(settings.materials.begin(), settings.materials.end(), settings_.materials.begin(),
+                                 [](const MaterialPair& a, const MaterialPair& b) { return isLike(a, b); });
+    if (!kept || !isLike(settings, settings_)) rigid_.wakeAll(state_);
+    settings_ = std::move(settings);
     if (!kept) rigid_.forgetPairs();
 }
 
@@ -56,8 +74,8 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
                             (body.rigid ? "make it kinematic" : "pin its particles") + " instead."));
     if (body.material == common.material && body.gravityScale == common.gravityScale && body.sensor == common.sensor &&
         body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter{common.mask, common.group} &&
-        body.drives == (body.rigid && common.kinematic) && body.fixedRotation == common.fixedRotation &&
-        rigid_.isSet(handle, common))
+        body.drives == (body.rigid && common.kinematic && !common.fixed) &&
+        body.fixedRotation == common.fixedRotation && rigid_.isSet(handle, common))
         return;
     reportIfAsked();  // of what it was
     body.material = common.material, body.gravityScale = common.gravityScale;
@@ -118,9 +136,10 @@ void World::setJoint(JointHandle handle, const JointDef& def)
 {
     const JointAt at = jointAt(handle);
     checks().check(handle, def);
+    if (isLike(def, at.soft ? softJoints_.joint(at.index) : rigid_.joint(at.index))) return;
     wakeHeld(at.soft ? softJoints_.def(at.index) : rigid_.joint(at.index).def);
     if (at.soft) {
-        softJoints_.set(at.index, def);
+        softJoints_.set(state_, at.index, def);
         finder_.exclude(softJoints_.excluded());
     } else {
         rigid_.setJoint(state_, at.index, def);
@@ -133,6 +152,7 @@ void World::setSpring(ActuatorHandle spring, double restLength, double ks, doubl
     const std::string item = named("spring", spring);
     checks().number(item, "rest length", restLength);
     checks().spring(item, ks, kd, tearRatio);
+    if (actuators_.isSet(spring, restLength, ks, kd, tearRatio)) return;
     actuators_.visitSpring(spring, [&](Index a, Index b) {
         for (const Index body : {a, b})
             if (body != kNone) rigid_.wake(state_, body);

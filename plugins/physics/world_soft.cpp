@@ -19,6 +19,7 @@ void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
 {
     requireBelow("force field", field, fields_.count());
     checks().check(field, def);
+    if (fields_.isSet(field, def)) return;
     fields_.set(field, def);
     rigid_.wakeAll(state_);
 }

@@ -211,6 +211,7 @@ void World::report()
     std::sort(touching_.begin(), touching_.end());
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());
+    stats_.awakeBodies = 0;
     for (const BodyRecord& body : state_.bodies) stats_.awakeBodies += !body.fixed && !body.asleep;
 }
 

@@ -1,6 +1,7 @@
 #include "joint.hpp"
 
 #include <cmath>
+#include <tuple>
 
 namespace jet::physics {
 
@@ -10,6 +11,31 @@ Softness<double> softnessOf(double hertz, double dampingRatio, double h)
     const double omega = 2 * kPi * hertz;
     const double a1 = 2 * dampingRatio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
     return {omega / a1, a2 * a3, a3};
+}
+
+JointDef liveDef(const JointDef& wanted, const JointDef& now)
+{
+    JointDef def = wanted;
+    def.kind = now.kind, def.a = now.a, def.b = now.b;
+    def.groundA = now.groundA, def.groundB = now.groundB;
+    return def;
+}
+
+bool isLike(const JointDef& wanted, const Joint& joint)
+{
+    const auto parts = [](const JointDef& d) {
+        return std::tie(d.limited, d.lower, d.upper, d.driven, d.motorSpeed, d.maxForce, d.maxTorque, d.hertz,
+                        d.dampingRatio, d.ratio, d.breakForce, d.collide);
+    };
+    const JointDef& now = joint.def;
+    const bool asLong = wanted.length < 0 || wanted.length == joint.length || now.kind == JointDef::Kind::Pulley;
+    return asLong && parts(wanted) == parts(now) && wanted.axis == now.axis &&
+           wanted.motorVelocity == now.motorVelocity;
+}
+
+double pulleyLength(const JointDef& def, const Vec2& pointA, const Vec2& pointB)
+{
+    return (pointA - def.groundA).norm() + def.ratio * (pointB - def.groundB).norm();
 }
 
 template <class Real>

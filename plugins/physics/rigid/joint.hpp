@@ -77,6 +77,13 @@ struct Joint {
     bool rowsTurn() const { return !hasPoint(); }
 };
 
+/// What of a joint may change while the world runs, changed; the rest as it is.
+JointDef liveDef(const JointDef& wanted, const JointDef& now);
+/// Would that change nothing?
+bool isLike(const JointDef& wanted, const Joint& now);
+/// What a pulley keeps, units.
+double pulleyLength(const JointDef&, const Vec2& pointA, const Vec2& pointB);
+
 struct JointFrame {
     Vec2 armA, armB, pointA, pointB;  // scene directions; scene coordinates
     Vec2 axis;                        // scene direction, turns with a

@@ -94,15 +94,29 @@ void RigidStage::decideMeeting(const Joint& changed)
 
 void RigidStage::forgetContactsIf(const std::function<bool(const RigidContact&)>& isMeant)
 {
-    const auto& bodies = collider_.bodies();
     for (Index i = 0; i < collider_.places().size(); ++i) {
         const RigidContact& c = collider_.contacts()[i];
         if (collider_.places()[i] == kFree || !isMeant(c)) continue;
-        if (c.touching) ended_.push_back({bodies[c.bodyA].handle, bodies[c.bodyB].handle});
+        part(c);
         if (active_ == Active::Single) single_.suspend(collider_, i);
         if (active_ == Active::Double) double_.suspend(collider_, i);
         collider_.forget(i);
     }
+}
+
+void RigidStage::part(const RigidContact& c)
+{
+    const auto& bodies = collider_.bodies();
+    if (c.touching) ended_.push_back({bodies[c.bodyA].handle, bodies[c.bodyB].handle});
+}
+
+void RigidStage::forgetPairs()
+{
+    if (active_ == Active::Single) single_.release(collider_);
+    if (active_ == Active::Double) double_.release(collider_);
+    for (Index i = 0; i < collider_.places().size(); ++i)
+        if (collider_.places()[i] != kFree) part(collider_.contacts()[i]);
+    collider_.forgetPairs();
 }
 
 void RigidStage::changed(Index body)
@@ -123,21 +137,37 @@ void RigidStage::countMovers()
     }
 }
 
-/// Those that touch as before have not parted.
-void RigidStage::tellPartings()
+bool RigidStage::haveOnlyPair(Index a, Index b) const
 {
-    for (const Parting& parting : ended_) {
-        const Index a = std::min(parting.a, parting.b), b = std::max(parting.a, parting.b);
-        const auto again = std::find_if(events_.begin(), events_.end(), [&](const ContactEvent& e) {
-            return e.begins && e.bodyA == a && e.bodyB == b;
-        });
-        if (again == events_.end()) {
-            events_.push_back({a, b, false, 0});
-        } else {
-            events_.erase(again);
-        }
-    }
+    return collider_.bodies()[a].partCount == 1 && collider_.bodies()[b].partCount == 1;
+}
+
+void RigidStage::noteTouches(const std::vector<TouchChange>& changes)
+{
+    const auto& bodies = collider_.bodies();
+    for (const TouchChange& c : changes)
+        touches_.change(bodies[c.bodyA].handle, bodies[c.bodyB].handle, c.begins, static_cast<double>(c.impulse),
+                        haveOnlyPair(c.bodyA, c.bodyB));
+    for (const Parting& parting : ended_)
+        touches_.change(parting.a, parting.b, false, 0, haveOnlyPair(bodyOf(parting.a), bodyOf(parting.b)));
     ended_.clear();
+    touches_.tell(events_);
+}
+
+/// What is restored has begun before.
+void RigidStage::recountTouches()
+{
+    events_.clear();
+    touches_.forget();
+    const auto& bodies = collider_.bodies();
+    const auto count = [&](Index a, Index b) {
+        if (!haveOnlyPair(a, b)) touches_.restored(bodies[a].handle, bodies[b].handle);
+    };
+    for (Index i = 0; i < collider_.places().size(); ++i) {
+        const RigidContact& c = collider_.contacts()[i];
+        if (collider_.places()[i] != kFree && c.touching) count(c.bodyA, c.bodyB);
+    }
+    for (const Parting& parting : ended_) count(bodyOf(parting.a), bodyOf(parting.b));
 }
 
 }  // namespace jet::physics

@@ -46,9 +46,16 @@ void Solver<Real>::layOutJoints(std::vector<Joint>& joints, const std::vector<Ri
     releaseJoints(joints);
     if (!joints.empty()) takenByJoints_.resize(bodies.size(), domains_.depth());
     for (Index i = 0; i < joints.size(); ++i) {
-        if (!bodies[joints[i].a].takesPart() || !bodies[joints[i].b].takesPart()) continue;
-        joints[i].state.force = Vec2(0, 0), joints[i].state.torque = 0;
-        if (joints[i].lives()) addJoint(joints[i], i);
+        Joint& joint = joints[i];
+        const RigidBody &a = bodies[joint.a], &b = bodies[joint.b];
+        const bool holds = joint.lives() && a.enabled && b.enabled;
+        if (holds && (a.asleep || b.asleep)) continue;
+        joint.state.force = Vec2(0, 0), joint.state.torque = 0;
+        if (holds) {
+            addJoint(joint, i);
+        } else {
+            joint.substep = 0;  // what it holds again one day starts from rest
+        }
     }
     jointsVersion_ = version, jointsH_ = shape_.h;
 }

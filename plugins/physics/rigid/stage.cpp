@@ -109,7 +109,7 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
     joint.localAxis = joint.a == 0 ? axis : unrotated(state.nodes.rotation[collider_.bodies()[joint.a].node], axis);
     joint.length = def.length;
     if (def.kind == JointDef::Kind::Pulley) {
-        joint.length = (def.a.point - def.groundA).norm() + def.ratio * (def.b.point - def.groundB).norm();
+        joint.length = pulleyLength(def, def.a.point, def.b.point);
     } else if (def.length < 0) {
         joint.length = (def.b.point - def.a.point).norm();
     }
@@ -119,27 +119,23 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
     return static_cast<Index>(joints_.size() - 1);
 }
 
-void RigidStage::setJoint(const State& state, Index index, const JointDef& def)
+void RigidStage::setJoint(const State& state, Index index, const JointDef& wanted)
 {
     Joint& joint = joints_[index];
     ++jointsVersion_;
     const JointDef old = joint.def;
-    joint.def = def;
-    joint.def.kind = old.kind, joint.def.a = old.a, joint.def.b = old.b;
-    joint.def.groundA = old.groundA, joint.def.groundB = old.groundB;
-    if (def.length >= 0 && old.kind != JointDef::Kind::Pulley) joint.length = def.length;
-    if (const double length = def.axis.norm(); length > 0) {
-        const Vec2 axis = def.axis / length;
+    joint.def = liveDef(wanted, old);
+    if (wanted.length >= 0 && old.kind != JointDef::Kind::Pulley) joint.length = wanted.length;
+    if (wanted.ratio != old.ratio && old.kind == JointDef::Kind::Pulley) {
+        const JointFrame frame = frameOf(joint, state, collider_.bodies());
+        joint.length = pulleyLength(joint.def, frame.pointA, frame.pointB);
+    }
+    const double length = wanted.axis.norm();
+    if (length > 0 && wanted.axis != old.axis) {
+        const Vec2 axis = wanted.axis / length;
         joint.localAxis = joint.a == 0 ? axis : unrotated(state.nodes.rotation[collider_.bodies()[joint.a].node], axis);
     }
     decideMeeting(joint);
-}
-
-void RigidStage::forgetPairs()
-{
-    if (active_ == Active::Single) single_.release(collider_);
-    if (active_ == Active::Double) double_.release(collider_);
-    collider_.forgetPairs();
 }
 
 void RigidStage::removeJoint(Index index)
@@ -179,8 +175,7 @@ template <class Real>
 void RigidStage::look(Solver<Real>& solver, State& state, const WorldSettings& settings, double dt, StepStats& stats)
 {
     if (!settings.findCollisions) {
-        solver.release(collider_);
-        collider_.forgetPairs();
+        forgetPairs();
         return;
     }
     if (resolving_ != settings.resolveCollisions) solver.release(collider_);
@@ -482,20 +477,6 @@ void RigidStage::disturb(Index handle)
     if (has(handle)) collider_.disturb(bodyOf(handle));
 }
 
-void RigidStage::noteTouches(const std::vector<TouchChange>& changes)
-{
-    events_.clear();
-    const auto& bodies = collider_.bodies();
-    for (const TouchChange& c : changes) {
-        const Index a = bodies[c.bodyA].handle, b = bodies[c.bodyB].handle;
-        events_.push_back({std::min(a, b), std::max(a, b), c.begins, static_cast<double>(c.impulse)});
-    }
-    if (!ended_.empty()) tellPartings();
-    std::sort(events_.begin(), events_.end(), [](const ContactEvent& p, const ContactEvent& q) {
-        return std::tie(p.bodyA, p.bodyB, p.begins) < std::tie(q.bodyA, q.bodyB, q.begins);
-    });
-}
-
 void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t>& touching) const
 {
     const auto& places = collider_.places();
@@ -532,7 +513,7 @@ void RigidStage::report(std::vector<Contact>& reports, std::vector<std::uint64_t
 std::size_t RigidStage::bytes() const
 {
     return roomOf(bodyOf_, watches_, group_) + arena_.bytes() + collider_.bytes() + single_.bytes() + double_.bytes() +
-           joints_.capacity() * sizeof(Joint);
+           joints_.capacity() * sizeof(Joint) + touches_.bytes();
 }
 
 }  // namespace jet::physics

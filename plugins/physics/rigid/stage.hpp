@@ -6,6 +6,7 @@
 #include "collider.hpp"
 #include "nets.hpp"
 #include "solver.hpp"
+#include "touches.hpp"
 
 #include <functional>
 
@@ -96,6 +97,7 @@ public:
         collider_.archive(with);
         watches_.resize(collider_.bodies().size()), group_.resize(collider_.bodies().size(), kNone);
         with(watches_), with(group_), with(sinceLook_), with(restH_), with(sleepers_), with(drowsy_), with(woke_);
+        with(resolving_), with(substeps_);
         for (RigidBody& body : collider_.bodies()) {
             const auto flag = [&with](bool value) {
                 with(value);
@@ -122,11 +124,12 @@ public:
         }
         for (Joint& joint : joints_) {
             with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.substep);
+            with(joint.state.force), with(joint.state.torque);
             with(joint.localA), with(joint.localB), with(joint.localAxis), with(joint.length);
             JointDef& def = joint.def;
             with(def.limited), with(def.lower), with(def.upper), with(def.driven), with(def.motorSpeed);
             with(def.motorVelocity), with(def.maxForce), with(def.maxTorque), with(def.hertz);
-            with(def.dampingRatio), with(def.ratio), with(def.breakForce), with(def.collide);
+            with(def.dampingRatio), with(def.ratio), with(def.breakForce), with(def.axis), with(def.collide);
         }
     }
     void rebuild()
@@ -138,6 +141,7 @@ public:
         if (active_ != Active::Single) single_ = {};  // it was not in the state, and knows contacts of another one
         if (active_ != Active::Double) double_ = {};
         countMovers();
+        recountTouches();
         ++jointsVersion_;
     }
 
@@ -178,7 +182,9 @@ private:
     void restrain(Solver<Real>&, const State&, double dt);
     void exchange(State&, bool store);
     void noteTouches(const std::vector<TouchChange>&);
-    void tellPartings();
+    bool haveOnlyPair(Index a, Index b) const;
+    void recountTouches();
+    void part(const RigidContact&);
     void forgetContacts(Index body);
     void forgetContactsIf(const std::function<bool(const RigidContact&)>&);
     void decideMeeting(const Joint&);
@@ -209,6 +215,7 @@ private:
         Index a = 0, b = 0;
     };
     std::vector<Parting> ended_;  // since the last step
+    Touches touches_;
     std::vector<Vec2> start_, moves_;
     std::vector<double> startAngle_, turns_;
     std::vector<float> allowed_;

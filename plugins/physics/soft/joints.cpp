@@ -100,7 +100,7 @@ Index Joints::add(const State& state, const JointDef& def)
     joint.localAxis = unrotated(a.rotation, axisLength > 0 ? Vec2(def.axis / axisLength) : Vec2(1, 0));
     joint.length = def.length;
     if (def.kind == JointDef::Kind::Pulley) {
-        joint.length = (def.a.point - def.groundA).norm() + def.ratio * (def.b.point - def.groundB).norm();
+        joint.length = pulleyLength(def, def.a.point, def.b.point);
     } else if (def.length < 0) {
         joint.length = (def.b.point - def.a.point).norm();
     }
@@ -312,20 +312,27 @@ JointState Joints::state(const State& state, Index index) const
 
 void Joints::setMotor(Index joint, bool driven, double speed)
 {
-    JointDef def = joints_[joint].joint.def;
+    Held& held = joints_[joint];
+    JointDef def = held.joint.def;
     def.driven = driven, def.motorSpeed = speed;
-    set(joint, def);
-}
-
-void Joints::set(Index index, const JointDef& wanted)
-{
-    Held& held = joints_[index];
-    JointDef def = wanted;
-    def.kind = held.joint.def.kind, def.a = held.joint.def.a, def.b = held.joint.def.b;
-    def.axis = held.joint.def.axis, def.collide = held.joint.def.collide;
     requireDirection(def, held.a, held.b);
     held.joint.def = def;
-    if (def.length >= 0 && def.kind != JointDef::Kind::Pulley) held.joint.length = def.length;
+}
+
+void Joints::set(const State& state, Index index, const JointDef& wanted)
+{
+    Held& held = joints_[index];
+    Joint& joint = held.joint;
+    const JointDef old = joint.def, def = liveDef(wanted, old);
+    requireDirection(def, held.a, held.b);
+    joint.def = def;
+    if (wanted.length >= 0 && def.kind != JointDef::Kind::Pulley) joint.length = wanted.length;
+    const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
+    const JointFrame f = frame(held, a, b);
+    if (def.ratio != old.ratio && def.kind == JointDef::Kind::Pulley)
+        joint.length = pulleyLength(def, f.pointA, f.pointB);
+    const double axisLength = def.axis.norm();
+    if (axisLength > 0 && def.axis != old.axis) joint.localAxis = unrotated(a.rotation, def.axis / axisLength);
 }
 
 bool Joints::setTarget(Index joint, const Vec2& target)

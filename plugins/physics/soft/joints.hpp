@@ -19,6 +19,7 @@ public:
     Index count() const { return static_cast<Index>(joints_.size()); }
     const JointDef& def(Index joint) const { return joints_[joint].joint.def; }
     bool lives(Index joint) const { return joints_[joint].joint.lives(); }
+    const Joint& joint(Index joint) const { return joints_[joint].joint; }
 
     void push(State&, double h);
     void relax(State&);
@@ -31,8 +32,8 @@ public:
 
     JointState state(const State&, Index joint) const;
     void setMotor(Index joint, bool driven, double speed);
-    /// All but the kind, the anchors and what was measured from the pose.
-    void set(Index joint, const JointDef&);
+    /// All that liveDef() takes.
+    void set(const State&, Index joint, const JointDef&);
     /// False when neither end is the background.
     bool setTarget(Index joint, const Vec2& target);
     void remove(Index joint) { joints_[joint].joint.removed = true; }
@@ -43,12 +44,12 @@ public:
     {
         for (Held& held : joints_) {
             Joint& joint = held.joint;
-            with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length);
+            with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length), with(joint.localAxis);
             with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local);
             JointDef& def = joint.def;
             with(def.driven), with(def.motorSpeed), with(def.motorVelocity), with(def.limited), with(def.lower);
             with(def.upper), with(def.maxForce), with(def.maxTorque), with(def.hertz), with(def.dampingRatio);
-            with(def.ratio), with(def.breakForce), with(def.groundA), with(def.groundB);
+            with(def.ratio), with(def.breakForce), with(def.axis), with(def.collide);
             with(joint.state.force), with(joint.state.torque);
         }
     }

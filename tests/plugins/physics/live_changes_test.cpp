@@ -161,6 +161,149 @@ TEST(LiveChanges, AreRestoredWithTheState)
     EXPECT_EQ(world->hash(), future);
 }
 
+TEST(LiveChanges, TheSchemeOfTheThesisTakesOneSubstepWhenItIsChosenLate)
+{
+    const auto settings = [](bool wanted) {
+        WorldSettings s;
+        s.gravity = {0, 100};
+        s.method = wanted ? Method::SemiImplicitEuler : Method::Automatic;
+        return s;
+    };
+    const auto make = [&](bool wanted) {
+        auto world = JetPhysics().createWorld(settings(wanted));
+        world->addRigidBody(simple(box({0, 0}, 10, 10)));
+        return world;
+    };
+    expectTheSameFuture(make, [&](PhysicsWorld& world) { world.setSettings(settings(true)); });
+}
+
+/// With and without a soft body: those have joints of their own.
+class LiveJoints : public testing::TestWithParam<bool> {
+protected:
+    LiveJoints() : world(makeWorld({0, 100})), soft(GetParam()) {}
+
+    BodyHandle add(const Vec2& at, double mass = 1)
+    {
+        if (!soft) return world->addRigidBody(simple(box(at, 20, 20, mass)));
+        SoftBodyDef def = softBall(at, 10, 5000, 10);
+        for (double& each : def.masses) each *= mass;
+        return world->addSoftBody(def);
+    }
+    JointDef jointOf(JointDef::Kind kind, const Anchor& a, const Anchor& b) const
+    {
+        JointDef def;
+        def.kind = kind, def.a = a, def.b = b;
+        for (Anchor* anchor : {&def.a, &def.b})
+            if (soft && anchor->body != kNoHandle) anchor->radius = 8;
+        return def;
+    }
+    Vec2 at(BodyHandle body) const { return world->bodies().position[body]; }
+
+    std::unique_ptr<PhysicsWorld> world;
+    bool soft;
+};
+
+TEST_P(LiveJoints, AnAxisThatIsSetAgainTurnsOnWithItsBody)
+{
+    WorldSettings still;
+    still.gravity = {0, 0};
+    world->setSettings(still);
+    const BodyHandle rail = add({0, 0}, 1000), sled = add({60, 0});
+    JointDef def = jointOf(JointDef::Kind::Prismatic, {rail, {0, 0}}, {sled, {60, 0}});
+    const JointHandle joint = world->addJoint(def);
+    world->setOmega(rail, 1), world->setOmega(sled, 1), world->setVelocity(sled, {0, 60});
+    run(*world, 1.57);
+    const double slid = world->joint(joint).value;
+    def.maxForce = 10;
+    world->setJoint(joint, def);
+    EXPECT_NEAR(world->joint(joint).value, slid, 1e-9) << "it slides along the same line as before";
+}
+
+TEST_P(LiveJoints, APulleyOfAnotherRatioKeepsTheRopeThereIs)
+{
+    const BodyHandle left = add({-50, 0}, 2), right = add({50, 0}, 2);
+    JointDef def = jointOf(JointDef::Kind::Pulley, {left, {-50, 0}}, {right, {50, 0}});
+    def.groundA = {-50, -100}, def.groundB = {50, -100};
+    const JointHandle joint = world->addJoint(def);
+    run(*world, 0.5);
+    def.ratio = 2;
+    world->setJoint(joint, def);
+    const double before = at(left).y() + 2 * at(right).y();
+    run(*world, 0.5);
+    EXPECT_NEAR(at(left).y() + 2 * at(right).y(), before, 2) << "nothing is drawn in at once";
+    EXPECT_GT(at(left).y(), 5) << "half the weight of the right one holds up the left one";
+}
+
+TEST_P(LiveJoints, WhetherTheJoinedCollideCanBeChanged)
+{
+    world->setGravity({0, 0});
+    const BodyHandle a = add({0, 0}), b = add({60, 0});
+    JointDef def = jointOf(JointDef::Kind::Rope, {a, {0, 0}}, {b, {60, 0}});
+    def.length = 200;
+    const JointHandle joint = world->addJoint(def);
+    def.collide = true;
+    world->setJoint(joint, def);
+    world->setVelocity(b, {-60, 0});
+    bool touched = false;
+    for (int i = 0; i < 60; ++i) world->step(kStep), touched |= world->touching(a, b);
+    EXPECT_TRUE(touched);
+}
+
+TEST_P(LiveJoints, WhatIsSwitchedOffHangsOnNothing)
+{
+    const BodyHandle body = add({0, 0});
+    JointDef def = jointOf(JointDef::Kind::Weld, {kNoHandle, {0, 0}}, {body, {0, 0}});
+    const JointHandle joint = world->addJoint(def);
+    run(*world, 0.5);
+    EXPECT_NEAR(world->joint(joint).force.y(), -100, 5);
+    world->setEnabled(body, false);
+    world->step(kStep);
+    EXPECT_EQ(world->joint(joint).force, Vec2(0, 0));
+    def.breakForce = 1;
+    world->setJoint(joint, def);
+    run(*world, 0.1);
+    EXPECT_FALSE(world->joint(joint).broken) << "it bears nothing";
+}
+
+TEST_P(LiveJoints, WhatAJointBoreIsRestored)
+{
+    const BodyHandle body = add({0, 0});
+    const JointHandle joint = world->addJoint(jointOf(JointDef::Kind::Weld, {kNoHandle, {0, 0}}, {body, {0, 0}}));
+    run(*world, 0.5);
+    const auto saved = world->save();
+    const Vec2 force = world->joint(joint).force;
+    world->applyImpulse(body, {50, 50});
+    run(*world, 0.1);
+    EXPECT_NE(world->joint(joint).force, force);
+    world->restore(saved);
+    EXPECT_EQ(world->joint(joint).force, force);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, LiveJoints, testing::Bool(),
+                         [](const auto& info) { return std::string(info.param ? "Soft" : "Rigid"); });
+
+TEST(LiveChanges, AStateIsRestoredAcrossAChangeOfWhatIsResolved)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 100};
+    settings.materials[0].restitution = 0.5;
+    const auto world = JetPhysics().createWorld(settings);
+    world->addRigidBody(simple(ground(0)));
+    for (int i = 0; i < 12; ++i) world->addRigidBody(simple(box({3.0 * (i % 3), -10.0 - 12 * i}, 10, 10)));
+    run(*world, 1);
+    const auto saved = world->save();
+    run(*world, 0.5);
+    const std::uint64_t future = world->hash();
+    settings.resolveCollisions = false;
+    world->setSettings(settings);
+    world->step(kStep);
+    settings.resolveCollisions = true;
+    world->setSettings(settings);
+    world->restore(saved);
+    run(*world, 0.5);
+    EXPECT_EQ(world->hash(), future);
+}
+
 }  // namespace
 
 }  // namespace jet::physics::test

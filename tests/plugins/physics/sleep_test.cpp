@@ -202,7 +202,9 @@ TEST(Sleep, ActuatorsAndJointsWakeWhatTheyHoldWhenTheyChangeAndNotOtherwise)
     ASSERT_TRUE(asleep());
     world->setTorque(torque, 1), world->setForce(force, {1, 0}), world->setMotor(wheel, false, 0);
     world->setJointTarget(mouse, {0, -5}), world->applyForce(1, {0, 0}), world->setGravity({0, 98.1});
-    world->setVelocity(1, {0, 0});
+    world->setVelocity(1, {0, 0}), world->setMass(1, 1), world->setEnabled(1, true), world->setBody(1, {});
+    world->setSpring(spring, -1, springDef.ks, springDef.kd, 0), world->setForceField(field, wind);
+    world->setJoint(wheel, wheelDef), world->setJoint(mouse, mouseDef), world->setSettings(sleepy());
     EXPECT_FALSE(world->awake(1)) << "nothing has changed";
     world->rayCast({-100, -5}, {100, -5}), world->nearest({0, -20}, 100), world->save();
     EXPECT_FALSE(world->awake(1)) << "looking wakes nobody";
@@ -213,13 +215,27 @@ TEST(Sleep, ActuatorsAndJointsWakeWhatTheyHoldWhenTheyChangeAndNotOtherwise)
              w.setForce(force, {2, 0});
          }},
         {"spring", [&](PhysicsWorld& w) { w.setSpring(spring, 30, 0.2, 0.1, 0); }},
-        {"field", [&](PhysicsWorld& w) { w.setForceField(field, wind); }},
+        {"field",
+         [&](PhysicsWorld& w) {
+             wind.vector = {2, 0};
+             w.setForceField(field, wind);
+         }},
         {"target",
          [&](PhysicsWorld& w) {
              w.setJointTarget(mouse, {0, -6});
          }},
         {"motor", [&](PhysicsWorld& w) { w.setMotor(wheel, true, 0.1); }},
-        {"joint", [&](PhysicsWorld& w) { w.setJoint(wheel, wheelDef); }},
+        {"joint",
+         [&](PhysicsWorld& w) {
+             wheelDef.breakForce = 1e6;
+             w.setJoint(wheel, wheelDef);
+         }},
+        {"settings",
+         [&](PhysicsWorld& w) {
+             WorldSettings damped = sleepy();
+             damped.linearDamping = 0.1;
+             w.setSettings(damped);
+         }},
         {"removed", [&](PhysicsWorld& w) { w.removeJoint(wheel); }},
     };
     for (const Way& way : ways) {
