@@ -219,3 +219,13 @@ JET_INLINE void putFour(Halves<float>& to, int four, const Halves<double>& value
     (four == 0 ? to.low : to.high) = Four{static_cast<float>(values[0]), static_cast<float>(values[1]),
                                           static_cast<float>(values[2]), static_cast<float>(values[3])};
 }
+
+/// Visits groups, each in two halves: v = begin(g), then end(g, v). Their lanes are two chains of results already.
+template <class Begin, class End>
+JET_INLINE void eachGroup(std::size_t count, const Begin& begin, const End& end)
+{
+    for (std::size_t g = 0; g < count; ++g) {
+        auto visit = begin(g);
+        end(g, visit);
+    }
+}

@@ -171,31 +171,55 @@ struct Pair {
     }
 };
 
-/// Gives the points what `wanted` says of a point and its speed, but never pulls; the sum of the changes.
-template <class Real, class Wanted>
-JET_INLINE Lanes<Real> pushNormals(Contacts<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& linear,
-                                   const Lanes<Real>& zero, const Wanted& wanted)
+/// A group's bodies between the two halves of a pass over it, of which eachGroup() tells.
+template <class Real>
+struct Visit {
+    BodyLanes<Real> a, b;
+    Lanes<Real> linear, given;  // speed of the centres along the normal; sum of what was given before
+
+    template <class Group>
+    JET_INLINE Visit(const BodyState<Real>* bodies, const Group& group)
+        : a(velocities(bodies, group.a)), b(velocities(bodies, group.b))
+    {
+    }
+    template <class Group>
+    JET_INLINE void leave(BodyState<Real>* bodies, const Group& group) const
+    {
+        scatter(bodies, group.a, a);
+        scatter(bodies, group.b, b);
+    }
+};
+
+/// Gives a point what `wanted` says of it and its speed, but never pulls; the change.
+template <class Real, class Point, class Wanted>
+JET_INLINE Lanes<Real> give(Point& p, const Lanes<Real>& speed, const Wanted& wanted)
 {
-    const Pair<Real> pair(a, b, c.points);
-    const auto give = [&](auto& p, const Lanes<Real>& speed) JET_INLINED {
-        const Lanes<Real> impulse = most(wanted(p, speed), zero), change = impulse - p.impulse;
-        p.impulse = impulse;
-        return change;
-    };
-    const Lanes<Real> first = give(c.points[0], pair.first(linear));
-    const Lanes<Real> second = give(c.points[1], pair.second(linear, first));
-    Pair<Real>::turn(a, b, pair, first, second);
+    const Lanes<Real> impulse = most(wanted(p, speed), all<Real>(0)), change = impulse - p.impulse;
+    p.impulse = impulse;
+    return change;
+}
+
+/// Both points of a group, one after the other; the sum of the changes.
+template <class Real, class Wanted>
+JET_INLINE Lanes<Real> pushNormals(Contacts<Real>& c, Visit<Real>& v, const Wanted& wanted)
+{
+    const Pair<Real> pair(v.a, v.b, c.points);
+    const Lanes<Real> first = give<Real>(c.points[0], pair.first(v.linear), wanted);
+    const Lanes<Real> second = give<Real>(c.points[1], pair.second(v.linear, first), wanted);
+    Pair<Real>::turn(v.a, v.b, pair, first, second);
     return first + second;
 }
 
+/// What a point that is not pushed out wants.
 template <class Real>
-JET_INLINE Lanes<Real> relaxNormals(Contacts<Real>& c, BodyLanes<Real>& a, BodyLanes<Real>& b,
-                                    const Lanes<Real>& linear, const Lanes<Real>& zero, const StepConstants<Real>& step)
-{
-    return pushNormals<Real>(c, a, b, linear, zero, [&](const auto& p, const Lanes<Real>& speed) JET_INLINED {
-        return p.impulse - p.mass * (speed + most(p.now, zero) * step.inverseH);
-    });
-}
+struct Relaxed {
+    Real inverseH;
+    template <class Point>
+    JET_INLINE Lanes<Real> operator()(const Point& p, const Lanes<Real>& speed) const
+    {
+        return p.impulse - p.mass * (speed + most(p.now, all<Real>(0)) * inverseH);
+    }
+};
 
 template <class Real>
 JET_INLINE void shove(BodyLanes<Real>& a, BodyLanes<Real>& b, const Lanes<Real>& x, const Lanes<Real>& y)
@@ -209,26 +233,29 @@ void solveContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::siz
                    const StepConstants<Real>& step)
 {
     const Lanes<Real> zero = all<Real>(0), one = all<Real>(1);
-    for (std::size_t g = 0; g < count; ++g) {
+    const auto begin = [&](std::size_t g) JET_INLINED {
+        const Contacts<Real>& c = view(groups[g]);
+        Visit<Real> v(bodies, c);
+        v.linear = c.normalX * (v.b.velocityX - v.a.velocityX) + c.normalY * (v.b.velocityY - v.a.velocityY);
+        return v;
+    };
+    const auto end = [&](std::size_t g, Visit<Real>& v) JET_INLINED {
         Contacts<Real>& c = view(groups[g]);
-        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const Mask<Real> still = (a.invMass == zero) | (b.invMass == zero);
+        const Mask<Real> still = (v.a.invMass == zero) | (v.b.invMass == zero);
         const Lanes<Real> rate = choose<Real>(still, all(step.still.biasRate), all(step.moving.biasRate));
         const Lanes<Real> massScale = choose<Real>(still, all(step.still.massScale), all(step.moving.massScale));
         const Lanes<Real> impulseScale =
             choose<Real>(still, all(step.still.impulseScale), all(step.moving.impulseScale));
-        const Lanes<Real> linear = c.normalX * (b.velocityX - a.velocityX) + c.normalY * (b.velocityY - a.velocityY);
-        const Lanes<Real> given =
-            pushNormals<Real>(c, a, b, linear, zero, [&](const auto& p, const Lanes<Real>& speed) JET_INLINED {
-                const Mask<Real> apart = p.now > zero;
-                const Lanes<Real> bias = choose<Real>(apart, p.now * step.inverseH, most(rate * p.now, -c.mostPush));
-                const Lanes<Real> kept = p.impulse - choose<Real>(apart, zero, impulseScale) * p.impulse;
-                return kept - p.mass * choose<Real>(apart, one, massScale) * (speed + bias);
-            });
-        shove<Real>(a, b, c.normalX * given, c.normalY * given);
-        scatter(bodies, c.a, a);
-        scatter(bodies, c.b, b);
-    }
+        const Lanes<Real> given = pushNormals<Real>(c, v, [&](const auto& p, const Lanes<Real>& speed) JET_INLINED {
+            const Mask<Real> apart = p.now > zero;
+            const Lanes<Real> bias = choose<Real>(apart, p.now * step.inverseH, most(rate * p.now, -c.mostPush));
+            const Lanes<Real> kept = p.impulse - choose<Real>(apart, zero, impulseScale) * p.impulse;
+            return kept - p.mass * choose<Real>(apart, one, massScale) * (speed + bias);
+        });
+        shove<Real>(v.a, v.b, c.normalX * given, c.normalY * given);
+        v.leave(bodies, c);
+    };
+    eachGroup(count, begin, end);
 }
 
 /// Relaxes normals alone, where the bodies are now.
@@ -236,35 +263,42 @@ template <class Real>
 void calmContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, std::size_t count,
                   const StepConstants<Real>& step)
 {
-    const Lanes<Real> zero = all<Real>(0);
-    for (std::size_t g = 0; g < count; ++g) {
+    const Relaxed<Real> wanted{step.inverseH};
+    const auto begin = [&](std::size_t g) JET_INLINED {
         Contacts<Real>& c = view(groups[g]);
-        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
         const MoveLanes<Real> moveA = moves(bodies, c.a), moveB = moves(bodies, c.b);
         const Lanes<Real> moved = c.normalX * (moveB.moveX - moveA.moveX) + c.normalY * (moveB.moveY - moveA.moveY);
         for (auto& p : c.points) p.now = p.separation + moved + p.leverB * moveB.sweep - p.leverA * moveA.sweep;
-        const Lanes<Real> linear = c.normalX * (b.velocityX - a.velocityX) + c.normalY * (b.velocityY - a.velocityY);
-        const Lanes<Real> given = relaxNormals<Real>(c, a, b, linear, zero, step);
-        shove<Real>(a, b, c.normalX * given, c.normalY * given);
-        scatter(bodies, c.a, a);
-        scatter(bodies, c.b, b);
-    }
+        Visit<Real> v(bodies, c);
+        v.linear = c.normalX * (v.b.velocityX - v.a.velocityX) + c.normalY * (v.b.velocityY - v.a.velocityY);
+        v.given = give<Real>(c.points[0], Pair<Real>(v.a, v.b, c.points).first(v.linear), wanted);
+        return v;
+    };
+    const auto end = [&](std::size_t g, Visit<Real>& v) JET_INLINED {
+        Contacts<Real>& c = view(groups[g]);
+        const Pair<Real> pair(v.a, v.b, c.points);
+        const Lanes<Real> second = give<Real>(c.points[1], pair.second(v.linear, v.given), wanted);
+        Pair<Real>::turn(v.a, v.b, pair, v.given, second);
+        const Lanes<Real> given = v.given + second;
+        shove<Real>(v.a, v.b, c.normalX * given, c.normalY * given);
+        v.leave(bodies, c);
+    };
+    eachGroup(count, begin, end);
 }
 
 template <class Real>
 void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, FrictionLanes<Real>* frictions,
                    std::size_t count, const StepConstants<Real>& step)
 {
-    const Lanes<Real> zero = all<Real>(0);
-    for (std::size_t g = 0; g < count; ++g) {
-        Contacts<Real>& c = view(groups[g]);
+    const auto begin = [&](std::size_t g) JET_INLINED {
+        const Contacts<Real>& c = view(groups[g]);
         Frictions<Real>& f = view(frictions[g]);
-        BodyLanes<Real> a = velocities(bodies, c.a), b = velocities(bodies, c.b);
-        const Lanes<Real> towardsX = b.velocityX - a.velocityX, towardsY = b.velocityY - a.velocityY;
+        Visit<Real> v(bodies, c);
+        const Lanes<Real> towardsX = v.b.velocityX - v.a.velocityX, towardsY = v.b.velocityY - v.a.velocityY;
         // The tangent is the normal turned to the left. Friction does not change speeds of centres along the normal.
         const Lanes<Real> along = c.normalX * towardsY - c.normalY * towardsX;
-        const Lanes<Real> linear = c.normalX * towardsX + c.normalY * towardsY;
-        const Pair<Real> pair(a, b, f.points);
+        v.linear = c.normalX * towardsX + c.normalY * towardsY;
+        const Pair<Real> pair(v.a, v.b, f.points);
         const auto rub = [&](int k, const Lanes<Real>& slide) JET_INLINED {
             auto& q = f.points[k];
             const Lanes<Real> limit = f.friction * c.points[k].impulse;
@@ -274,14 +308,21 @@ void relaxContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Friction
             return change;
         };
         const Lanes<Real> first = rub(0, pair.first(along)), second = rub(1, pair.second(along, first));
-        Pair<Real>::turn(a, b, pair, first, second);
-        const Lanes<Real> rubbed = first + second, given = relaxNormals<Real>(c, a, b, linear, zero, step);
-        shove<Real>(a, b, c.normalX * given - c.normalY * rubbed, c.normalY * given + c.normalX * rubbed);
-        for (int k = 0; k < 2; ++k)
-            f.points[k].total = step.totalKept * f.points[k].total + step.totalAdded * c.points[k].impulse;
-        scatter(bodies, c.a, a);
-        scatter(bodies, c.b, b);
-    }
+        Pair<Real>::turn(v.a, v.b, pair, first, second);
+        v.given = first + second;
+        return v;
+    };
+    const auto end = [&](std::size_t g, Visit<Real>& v) JET_INLINED {
+        Contacts<Real>& c = view(groups[g]);
+        const Lanes<Real> rubbed = v.given, given = pushNormals<Real>(c, v, Relaxed<Real>{step.inverseH});
+        shove<Real>(v.a, v.b, c.normalX * given - c.normalY * rubbed, c.normalY * given + c.normalX * rubbed);
+        for (int k = 0; k < 2; ++k) {
+            Lanes<Real>& total = view(frictions[g]).points[k].total;
+            total = step.totalKept * total + step.totalAdded * c.points[k].impulse;
+        }
+        v.leave(bodies, c);
+    };
+    eachGroup(count, begin, end);
 }
 
 template <class Real>

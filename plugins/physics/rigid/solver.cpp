@@ -72,6 +72,17 @@ void Solver<Real>::eachColour(Node node, Work&& work)
 }
 
 template <class Real>
+template <class Work>
+void Solver<Real>::eachRun(Node node, Work&& work)
+{
+    eachColour(node, [&](Colour& c) {
+        const std::size_t count = c.contacts.size();
+        const std::size_t run = isLast(static_cast<std::size_t>(&c - colours_.data())) ? 1 : count;
+        for (std::size_t first = 0; first < count; first += run) work(&c.contacts[first], &c.frictions[first], run);
+    });
+}
+
+template <class Real>
 void Solver<Real>::countUsed()
 {
     std::fill(std::begin(used_), std::end(used_), std::size_t{0});
@@ -154,8 +165,9 @@ void Solver<Real>::pushNode(Node node)
             kernels_->pushJoints(states, c.joints.data(), c.joints.size(), constants_);
         }
     }
-    eachColour(node,
-               [&](Colour& c) { kernels_->solveContacts(states, c.contacts.data(), c.contacts.size(), constants_); });
+    eachRun(node, [&](ContactLanes<Real>* contacts, FrictionLanes<Real>*, std::size_t count) {
+        kernels_->solveContacts(states, contacts, count, constants_);
+    });
 }
 
 /// The same, without pushing errors out; `last` in this half of the substep.
@@ -174,11 +186,11 @@ void Solver<Real>::relaxNode(Node node, int pass, bool last)
     }
     StepConstants<Real> constants = constants_;
     if (last) constants.totalKept = fresh_ ? 0 : 1, constants.totalAdded = 1;
-    eachColour(node, [&](Colour& c) {
+    eachRun(node, [&](ContactLanes<Real>* contacts, FrictionLanes<Real>* frictions, std::size_t count) {
         if (pass % kRelaxPasses != kRelaxPasses - 1) {
-            kernels_->calmContacts(states, c.contacts.data(), c.contacts.size(), constants);
+            kernels_->calmContacts(states, contacts, count, constants);
         } else {
-            kernels_->relaxContacts(states, c.contacts.data(), c.frictions.data(), c.contacts.size(), constants);
+            kernels_->relaxContacts(states, contacts, frictions, count, constants);
         }
     });
     if (last) foreseeNode(node);

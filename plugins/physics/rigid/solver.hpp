@@ -231,6 +231,9 @@ private:
     /// Calls work(colour) for the colours of a node in turn.
     template <class Work>
     void eachColour(Node node, Work&& work);
+    /// Calls work(contacts, frictions, count) for groups that have no moving body in common, in turn.
+    template <class Work>
+    void eachRun(Node node, Work&& work);
     void countUsed();
     bool isDivisionDue(const Collider&, std::size_t joints, int& depth) const;
     std::size_t borderContacts() const;

@@ -145,6 +145,8 @@ struct StepConstants {
 
 template <class Real>
 struct Kernels {
+    // Groups of one call to calm, solve or relax contacts have no moving body in common.
+
     /// Looks how far apart the bodies are after their move, and takes the pushing velocity back out, of normals alone.
     void (*calmContacts)(BodyState<Real>*, ContactLanes<Real>*, std::size_t, const StepConstants<Real>&);
     /// Adds the accumulated impulses of contacts to the bodies' velocities.

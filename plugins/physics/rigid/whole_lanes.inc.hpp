@@ -133,3 +133,23 @@ JET_INLINE void putFour(Lanes<float>& to, int four, const Lanes<double>& values)
 {
     reinterpret_cast<Four*>(&to)[four] = __builtin_convertvector(values, Four);
 }
+
+/// Visits groups that have no body in common, each in two halves: v = begin(g), then end(g, v). The next group is begun
+/// before one ends: what is done with a group is a chain of results, and a processor that looks a few hundred
+/// instructions ahead has little else to do while it waits for them.
+template <class Begin, class End>
+JET_INLINE void eachGroup(std::size_t count, const Begin& begin, const End& end)
+{
+    if (count == 0) return;
+    auto even = begin(0);
+    std::size_t g = 0;
+    for (; g + 2 < count; g += 2) {
+        auto odd = begin(g + 1);
+        end(g, even);
+        even = begin(g + 2);
+        end(g + 1, odd);
+    }
+    if (g + 1 == count) return end(g, even);
+    auto odd = begin(g + 1);
+    end(g, even), end(g + 1, odd);
+}

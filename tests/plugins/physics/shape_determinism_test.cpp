@@ -80,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Worlds, ShapeDeterminism,
                                                     s.materials[0].restitution = 0.4;
                                                     return drumWorld(s, 24);
                                                 }},
+                                           Case{"plate", [](const WorldSettings& s) { return plateWorld(s); }},
                                            Case{"net", [](const WorldSettings& s) { return netWorld(s); }}),
                          [](const auto& info) { return info.param.name; });
 

@@ -50,6 +50,17 @@ inline std::unique_ptr<PhysicsWorld> drumWorld(const WorldSettings& settings, in
     return world;
 }
 
+/// A plate that moves and has more contacts than there are colours: some are solved one by one.
+inline std::unique_ptr<PhysicsWorld> plateWorld(const WorldSettings& settings, int boxes = 60)
+{
+    auto world = JetPhysics().createWorld(settings);
+    world->addRigidBody(simple(ground(0)));
+    world->addRigidBody(simple(box({0, -5}, 12.0 * boxes, 10)));
+    for (int i = 0; i < 2 * boxes; ++i)
+        world->addRigidBody(simple(box({12.0 * (i % boxes) - 6.0 * boxes + 6, -15.0 - 11.0 * (i / boxes)}, 10, 10)));
+    return world;
+}
+
 inline std::unique_ptr<PhysicsWorld> netWorld(const WorldSettings& settings, int side = 24)
 {
     auto world = JetPhysics().createWorld(settings);
