@@ -1,5 +1,7 @@
 #include "trigonometry.hpp"
 
+#include "trigonometry_terms.hpp"
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -9,29 +11,15 @@ namespace jet::physics {
 
 namespace {
 
-// pi/2 in two parts: k * kHalfPiHigh is exact for |k| < 2^20, so the reduction keeps full precision for common angles.
-constexpr double kHalfPiHigh = 1.57079632673412561417;
-constexpr double kHalfPiLow = 6.07710050650619224932e-11;
-
 /// A value of the cosine and one of the sine, side by side.
 typedef double Both __attribute__((vector_size(16)));
 
-/// Taylor sums of cos x and sin x for |x| <= pi/4; the first terms left out are below 1e-17.
+/// Cosine and sine for |x| <= pi/4.
 Both nearZero(double x)
 {
-    constexpr Both kTerms[] = {{-1.0 / 6402373705728000.0, 0.0},
-                               {1.0 / 20922789888000.0, 1.0 / 355687428096000.0},
-                               {-1.0 / 87178291200.0, -1.0 / 1307674368000.0},
-                               {1.0 / 479001600.0, 1.0 / 6227020800.0},
-                               {-1.0 / 3628800.0, -1.0 / 39916800.0},
-                               {1.0 / 40320.0, 1.0 / 362880.0},
-                               {-1.0 / 720.0, -1.0 / 5040.0},
-                               {1.0 / 24.0, 1.0 / 120.0},
-                               {-1.0 / 2.0, -1.0 / 6.0},
-                               {1.0, 1.0}};
     const Both q = {x * x, x * x};
-    Both sum = kTerms[0];
-    for (std::size_t i = 1; i < std::size(kTerms); ++i) sum = kTerms[i] + q * sum;
+    Both sum = {kCosineTerms[0], kSineTerms[0]};
+    for (std::size_t i = 1; i < std::size(kCosineTerms); ++i) sum = Both{kCosineTerms[i], kSineTerms[i]} + q * sum;
     return sum * Both{1, x};
 }
 
@@ -55,8 +43,7 @@ double atanInUnit(double x)
 
 Vec2 direction(double angle)
 {
-    constexpr double kRounds = 6755399441055744;  // adding it rounds to a whole number
-    if (!(std::abs(angle) < 1e9)) angle = std::remainder(angle, 2 * kPi);
+    if (!(std::abs(angle) < kFarAngle)) angle = std::remainder(angle, 2 * kPi);
     const double turns = (angle * (2 / kPi) + kRounds) - kRounds;
     const Both at = nearZero((angle - turns * kHalfPiHigh) - turns * kHalfPiLow);
     // No branches: what bodies turn to is as good as random.

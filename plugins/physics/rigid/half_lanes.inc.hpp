@@ -229,3 +229,15 @@ JET_INLINE void eachGroup(std::size_t count, const Begin& begin, const End& end)
         end(g, visit);
     }
 }
+
+// Doubles as they lie in memory.
+typedef Two Doubles;
+typedef double DoublesAnywhere __attribute__((vector_size(16), may_alias, aligned(8)));
+typedef std::uint64_t DoubleBits __attribute__((vector_size(16)));
+constexpr std::size_t kDoubles = 2;
+
+JET_INLINE void putPairs(double* to, const Doubles& first, const Doubles& second)
+{
+    reinterpret_cast<DoublesAnywhere*>(to)[0] = __builtin_shufflevector(first, second, 0, 2);
+    reinterpret_cast<DoublesAnywhere*>(to)[1] = __builtin_shufflevector(first, second, 1, 3);
+}

@@ -413,13 +413,52 @@ void integratePositions(BodyState<Real>* bodies, std::size_t count, Real h)
     for (std::size_t i = 0; i < count; ++i) rowAt(bodies[i].moveX) += step * rowAt(bodies[i].velocityX);
 }
 
+/// physics::direction() of some angles at once, to the same bits.
+JET_INLINE void directionsOf(const Doubles& angle, Doubles& cosine, Doubles& sine)
+{
+    const Doubles rounded = angle * (2 / kPi) + kRounds, turns = rounded - kRounds;
+    const Doubles x = (angle - turns * kHalfPiHigh) - turns * kHalfPiLow, q = x * x;
+    Doubles c = Doubles{} + kCosineTerms[0], s = Doubles{} + kSineTerms[0];
+    for (std::size_t i = 1; i < std::size(kCosineTerms); ++i) c = kCosineTerms[i] + q * c, s = kSineTerms[i] + q * s;
+    s = s * x;
+    const DoubleBits quarter = (DoubleBits)rounded;  // in its last two bits
+    const DoubleBits swapped = ((DoubleBits)c ^ (DoubleBits)s) & -(quarter & 1);
+    cosine = (Doubles)((DoubleBits)c ^ swapped ^ ((quarter + 1) >> 1) << 63);
+    sine = (Doubles)((DoubleBits)s ^ swapped ^ (quarter >> 1) << 63);
+}
+
+bool turnBodies(const double* angles, double* directions, std::size_t count)
+{
+    DoubleBits near = ~DoubleBits{};
+    const auto turn = [&](const double* from, double* to) JET_INLINED {
+        const Doubles angle = *reinterpret_cast<const DoublesAnywhere*>(from);
+        near &= (DoubleBits)(angle < kFarAngle) & (DoubleBits)(angle > -kFarAngle);
+        Doubles cosine, sine;
+        directionsOf(angle, cosine, sine);
+        putPairs(to, cosine, sine);
+    };
+    std::size_t i = 0;
+    for (; i + kDoubles <= count; i += kDoubles) turn(angles + i, directions + 2 * i);
+    if (i < count) {
+        double last[kDoubles] = {}, turned[2 * kDoubles];
+        std::copy(angles + i, angles + count, last);
+        turn(last, turned);
+        std::copy(turned, turned + 2 * (count - i), directions + 2 * i);
+    }
+    bool all = true;
+    for (std::size_t k = 0; k < kDoubles; ++k) all &= near[k] != 0;
+    return all;
+}
+
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {calmContacts<Real>,   warmContacts<Real>,     warmJoints<Real>,          solveContacts<Real>,
-            relaxContacts<Real>,  approachContacts<Real>, scaleContacts<Real>,       carryContacts<Real>,
-            bounceContacts<Real>, startJoints<Real>,      foreseeJoints<Real>,       pushJoints<Real>,
-            relaxJoints<Real>,    turnJoints<Real>,       integrateVelocities<Real>, integratePositions<Real>};
+    return {calmContacts<Real>,       warmContacts<Real>,  warmJoints<Real>,
+            solveContacts<Real>,      relaxContacts<Real>, approachContacts<Real>,
+            scaleContacts<Real>,      carryContacts<Real>, bounceContacts<Real>,
+            startJoints<Real>,        foreseeJoints<Real>, pushJoints<Real>,
+            relaxJoints<Real>,        turnJoints<Real>,    integrateVelocities<Real>,
+            integratePositions<Real>, turnBodies};
 }
 
 }  // namespace

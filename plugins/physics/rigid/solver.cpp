@@ -13,6 +13,7 @@ constexpr double kJointHertz = 80, kJointHertzPerSubstepRate = 1.0 / 3, kJointDa
 constexpr int kRelaxPasses = 2;
 constexpr int kJointPushPasses = 2;  // chains of joints carry forces far
 constexpr int kBouncePasses = 2;
+constexpr std::size_t kNodesABlock = 1024;
 
 template <class Real>
 Softness<Real> softness(double hertz, double dampingRatio, double h)
@@ -280,6 +281,17 @@ void Solver<Real>::bounce()
                                          c.contacts.size(), constants_);
             });
         });
+}
+
+template <class Real>
+void Solver<Real>::turn(Nodes& nodes) const
+{
+    const std::vector<double>& angles = nodes.angle.values();
+    std::vector<Vec2>& directions = nodes.rotation.values();
+    pool_->ranges(angles.size(), kNodesABlock, [&](std::size_t first, std::size_t last) {
+        if (kernels_->turnBodies(&angles[first], directions[first].data(), last - first)) return;
+        for (std::size_t i = first; i < last; ++i) directions[i] = direction(angles[i]);
+    });
 }
 
 template <class Real>

@@ -76,6 +76,9 @@ public:
     /// The impulses that their next step starts with.
     void scaleJoints(std::vector<Joint>&, const std::function<double(const Joint&)>& factor);
 
+    /// The nodes' directions follow from their angles, in a world where all of them are bodies.
+    void turn(Nodes&) const;
+
     const StepShape& shape() const { return shape_; }
     /// Did errors of joints come to more than a small part of their arms?
     bool strained() const

@@ -18,6 +18,7 @@
 
 #include "lanes.hpp"
 #include "state.hpp"
+#include "trigonometry_terms.hpp"
 
 #include <iterator>
 #include <utility>
@@ -180,6 +181,8 @@ struct Kernels {
     /// Takes up the impulses of the last substep, then forces, damping and warm starting.
     void (*integrateVelocities)(BodyState<Real>*, BodyPush<Real>*, std::size_t, const StepConstants<Real>&);
     void (*integratePositions)(BodyState<Real>*, std::size_t, Real h);
+    /// (cos, sin) of angles, as direction() has them; false: some are too far for it, and theirs are not true.
+    bool (*turnBodies)(const double* angles, double* directions, std::size_t);
 };
 
 /// The kernels for this processor, or those asked for where it has them.

@@ -344,10 +344,9 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         nodes.position[body.node] += part * move;
         const double turn = part * whole;
         collider_.travelled(i, part * move.norm() + std::abs(turn) * static_cast<double>(body.reach));
-        if (turn == 0) return;
         nodes.angle[body.node] += turn;
-        nodes.rotation[body.node] = direction(nodes.angle[body.node]);
     });
+    solver.turn(nodes);
 }
 
 /// Has a body moved by a quarter of its length, or more?

@@ -153,3 +153,15 @@ JET_INLINE void eachGroup(std::size_t count, const Begin& begin, const End& end)
     auto odd = begin(g + 1);
     end(g, even), end(g + 1, odd);
 }
+
+// Doubles as they lie in memory.
+typedef FourDoubles Doubles;
+typedef double DoublesAnywhere __attribute__((vector_size(32), may_alias, aligned(8)));
+typedef std::uint64_t DoubleBits __attribute__((vector_size(32)));
+constexpr std::size_t kDoubles = 4;
+
+JET_INLINE void putPairs(double* to, const Doubles& first, const Doubles& second)
+{
+    reinterpret_cast<DoublesAnywhere*>(to)[0] = __builtin_shufflevector(first, second, 0, 4, 1, 5);
+    reinterpret_cast<DoublesAnywhere*>(to)[1] = __builtin_shufflevector(first, second, 2, 6, 3, 7);
+}

@@ -1,11 +1,36 @@
 // The portable functions agree with the C library's to the last few bits.
+#include "rigid/solver_data.hpp"
 #include "trigonometry.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 namespace jet::physics::test {
 
 namespace {
+
+TEST(Trigonometry, ManyDirectionsAtOnceAreThoseOfOneByOneToTheLastBit)
+{
+    std::vector<double> angles = {0.0, -0.0, 0.25 * kPi, -0.25 * kPi, 1e-300, 9.99e8, -9.99e8};
+    for (int i = -4000; i <= 4000; ++i) angles.push_back(0.0371 * i * (1 + i % 7)), angles.push_back(0.5 * kPi * i);
+    for (const KernelChoice choice : {KernelChoice::Sse2, KernelChoice::Best}) {
+        // Of every count that fills no whole register at the end, too.
+        for (std::size_t count = angles.size() - 4; count <= angles.size(); ++count) {
+            std::vector<Vec2> found(angles.size());
+            ASSERT_TRUE(kernels<float>(choice).turnBodies(angles.data(), found[0].data(), count));
+            for (std::size_t i = 0; i < count; ++i) {
+                const Vec2 one = direction(angles[i]);
+                ASSERT_EQ(std::memcmp(&one, &found[i], sizeof one), 0) << angles[i];
+            }
+        }
+        Vec2 far[3];
+        for (const double angle : {1e9, -1e9, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+            const double some[] = {0, angle, 1};
+            EXPECT_FALSE(kernels<double>(choice).turnBodies(some, far[0].data(), 3)) << angle;
+        }
+    }
+}
 
 TEST(Trigonometry, DirectionIsCosineAndSine)
 {
