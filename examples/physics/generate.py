@@ -276,6 +276,17 @@ JetSystem.addEventListener("onStep", function () {
     write("plastic", "Plastic bodies", s, 600, [{"item": "Rubber", "taller": "Clay", "by": 3}], JET_ALONE)
 
 
+def composite():
+    s = Scene()
+    s.ground()
+    for name, x, twin in (("Loose wheel", 180, 0), ("Wheel", 440, 40)):
+        s.soft(name, circle(x, 270, 48, 5), [GREY, RED][twin > 0], mass=1, ks=4, kd=0.2, border_to_inside=0,
+               axis_aligned=False, cross=False, shape_stiffness=twin, shape_damping=0.4)
+        s.rigid(f"{name}'s load", rectangle(x, 180, 70, 14), STEEL, 2)
+    write("composite", "Composite bodies", s, 600, [{"item": "Wheel", "taller": "Loose wheel", "by": 10},
+                                                    {"item": "Wheel's load", "above": "Loose wheel's load", "by": 10}], JET_ALONE)
+
+
 def fields():
     s = Scene()
     s.ground()
@@ -385,7 +396,7 @@ def sleeping():
           picture=500)
 
 
-DEMOS = {f.__name__: f for f in (stack, joints, motors, platform, bullets, car, soft_balls, gas, plastic, fields, tearing, shape,
+DEMOS = {f.__name__: f for f in (stack, joints, motors, platform, bullets, car, soft_balls, gas, plastic, composite, fields, tearing, shape,
                                 breaking, sensors, soft_rigid, sleeping)}
 
 if __name__ == "__main__":

@@ -136,8 +136,9 @@ soft::Cloud ShapeMemory::cloudOf(State& state, const Lattice& lattice)
 void ShapeMemory::look(State& state, double dt, std::span<const double> closing)
 {
     for (Lattice& lattice : lattices_) {
-        // What is nailed down has no shape of its own; neither has what flows.
-        lattice.relaxed = state.bodies[lattice.body].soft->matter.yield > 0 || anyPinned(state, lattice);
+        // What is nailed down has no shape of its own, neither has what flows; a twin (soft/twins.hpp) does it better.
+        const SoftMatter& matter = state.bodies[lattice.body].soft->matter;
+        lattice.relaxed = matter.yield > 0 || matter.shapeStiffness > 0 || anyPinned(state, lattice);
         if (lattice.relaxed) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);

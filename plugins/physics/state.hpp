@@ -90,8 +90,10 @@ struct SoftRecord {
     Range springs, angularSprings;  // into SoftSprings
     bool open = false;              // torn at its border, which lets gas out
     Index pieceCount = 1;
-    std::vector<Index> pieces;   // [particles] of a torn body; empty: whole
-    std::vector<Vec2> restArms;  // particles from the centre of mass at rest
+    std::vector<Index> pieces;       // [particles] of a torn body; empty: whole
+    std::vector<Vec2> restArms;      // particles from the centre of mass at rest
+    Vec2 twinTurn = Vec2(1, 0);      // (cos, sin) of the twin's angle; stays while no angle fits better than others
+    double restGyrationSquared = 0;  // of the shape at rest, units²
 };
 
 struct BodyRecord {

@@ -16,7 +16,7 @@ World::World(const WorldSettings& settings) : settings_(settings)
     const bool avx2 = settings.simd != Simd::Sse2 && soft::hasAvx2();
     springs_.use(avx2 ? soft::kernelsAvx2() : soft::kernelsSse2());
     const soft::CloudKernels& clouds = avx2 ? soft::avx2::clouds : soft::sse2::clouds;
-    shapes_.use(clouds), finder_.use(clouds);
+    shapes_.use(clouds), twins_.use(clouds), finder_.use(clouds);
     state_.clouds = &clouds;
     softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
     queries_.use(rigid_);
@@ -112,7 +112,10 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     Vec2 centre(0, 0);
     for (Index i = 0; i < count; ++i) centre += def.masses[i] / soft.mass * def.particles[i];
     soft.restArms.reserve(count);
-    for (Index i : particleOf) soft.restArms.push_back(def.particles[i] - centre);
+    for (Index i : particleOf) {
+        soft.restArms.push_back(def.particles[i] - centre);
+        soft.restGyrationSquared += def.masses[i] / soft.mass * soft.restArms.back().squaredNorm();
+    }
 
     std::vector<std::vector<Index>> rings = def.borders;
     for (auto& ring : rings)

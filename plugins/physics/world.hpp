@@ -11,6 +11,7 @@
 #include "soft/contacts.hpp"
 #include "soft/joints.hpp"
 #include "soft/tears.hpp"
+#include "soft/twins.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
 
@@ -159,6 +160,7 @@ private:
     State state_;
     SoftSprings springs_;
     ShapeMemory shapes_;
+    soft::Twins twins_;
     Actuators actuators_;
     ForceFields fields_;
     std::vector<std::uint8_t> pinsWhileOff_;  // [nodes] pinned particles of bodies that are switched off

@@ -182,6 +182,7 @@ void World::archive(Self& self, Archive& with)
         SoftMatter& matter = body.soft->matter;
         with(matter.thickness), with(matter.pressure), with(matter.areaStiffness), with(matter.yield);
         with(matter.creep), with(matter.mostFlow), with(matter.selfCollision);
+        with(matter.shapeStiffness), with(matter.shapeDamping), with(body.soft->twinTurn);
     }
     self.archivePins(with);
     with.list(self.stepForces_.values(), [&](Vec2& force) { with(force); });

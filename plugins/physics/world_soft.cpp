@@ -77,7 +77,9 @@ void World::refuseExplosion()
 void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
 {
     checks().check(handle, matter);
-    softBody(handle).soft->matter = matter;
+    SoftMatter& own = softBody(handle).soft->matter;
+    if (own.shapeStiffness != matter.shapeStiffness) rate_ = -1;
+    own = matter;
 }
 
 void World::setSprings(BodyHandle handle, double ks, double kd, double tearRatio)

@@ -153,6 +153,7 @@ void World::prepareStiffness()
         const BodyRecord& body = state_.bodies[handle];
         const double stable = springs_.stableRate(bounds_, body, handle);
         rate_ = std::max({rate_, stable, springs_.swingRate(bounds_, body, handle)});
+        if (!body.rigid) rate_ = std::max(rate_, soft::Twins::swingRate(body));
     }
     preparedFor_ = 0;
 }
@@ -163,6 +164,8 @@ void World::substep(double h, int index, int count)
     softContacts_.refresh(state_, h, gravity);
     {
         const Stopwatch watch(stats_.springsMs);
+        // Before the forces: its damping must not take from what they give, or what bears a load would yield more.
+        twins_.apply(state_, springs_, h);
         const bool pushed = pushed_ || plain_ || actuators_.any() || fields_.count() > 0;
         if (pushed || springs_.anyOneByOne()) state_.nodes.coverForces();
         for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force[n] += stepForces_[n];

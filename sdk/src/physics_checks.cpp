@@ -187,6 +187,8 @@ void PhysicsChecks::check(BodyHandle handle, const SoftMatter& matter) const
     atLeast(item, "thickness", matter.thickness, 0);
     atLeast(item, "pressure", matter.pressure, 0);
     atLeast(item, "area stiffness", matter.areaStiffness, 0);
+    atLeast(item, "shape stiffness", matter.shapeStiffness, 0);
+    atLeast(item, "shape damping", matter.shapeDamping, 0);
     atLeast(item, "yield", matter.yield, 0);
     atLeast(item, "creep", matter.creep, 0);
     within(item, "the most that springs may flow", matter.mostFlow, 0, kMostFlow);

@@ -228,6 +228,31 @@ Outcome composite(const Lab& lab)
                     "pressed to " + std::to_string(100 * pressed).substr(0, 4) + " %, let go");
 }
 
+/// No springs but those to the rigid twin: pulled at both ends each gives way by F / ks, let go it is as it was.
+Outcome rigidTwin(const Lab& lab)
+{
+    const auto world = lab.world({0, 0});
+    SoftBodyDef def = ball({0, 0}, 20, 100, 0.5);
+    def.springs.clear();
+    def.matter.shapeStiffness = 50, def.matter.shapeDamping = 1;
+    const BodyHandle body = world->addSoftBody(def);
+    const auto force = world->addForce({on(body, {20, 0}), {200, 0}});
+    world->addForce({on(body, {-20, 0}), {-200, 0}});
+    const auto width = [&] {
+        const auto p = points(*world, body);
+        double least = 0, most = 0;
+        for (const Vec2& at : p) least = std::min(least, at.x()), most = std::max(most, at.x());
+        return most - least;
+    };
+    run(*world, 3);
+    const double stretch = (width() - 40) / 2;
+    if (stretch > 40) return {Outcome::Verdict::Missing, 0, 0, {}, "nothing draws its particles back"};
+    world->setForce(force, {0, 0});
+    world->setForce(force + 1, {0, 0});
+    run(*world, 3);
+    return measured(std::max(percentOff(stretch, 4), percentOff(width(), 40)), "% of F / ks", 1);
+}
+
 SoftBodyDef ringBody(double ks)
 {
     SoftBodyDef def;
@@ -429,6 +454,7 @@ std::vector<Check> softChecks()
             {"soft bodies", "rests on the ground", ballRests},
             {"soft bodies", "soft on soft, rigid on soft", softOnSoft},
             {"soft bodies", "regains its shape", composite},
+            {"soft bodies", "composite body", rigidTwin},
             {"soft bodies", "gas pressure", gas},
             {"soft bodies", "area preservation", areaKept},
             {"soft bodies", "plasticity", plastic},

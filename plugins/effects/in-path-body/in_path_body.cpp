@@ -59,6 +59,11 @@ const jet::PropertyTable& table()
             .in("force/unit")
             .range(0, 1e9)
             .says("Pressure that resists a change of its area, times the relative change."),
+        jet::real("shape-stiffness", "Shape stiffness", 0)
+            .in("force/unit")
+            .range(0, 1e9)
+            .says("ks of springs that draw each particle to its place in the shape as drawn; 0: none."),
+        jet::real("shape-damping", "Shape damping", 0.1).in("force·s/unit").range(0, 1e9).says("kd of these springs."),
         jet::real("yield", "Flows at strain", 0).range(0, 1e6).says("Springs stay changed beyond it; 0: never."),
         jet::real("creep", "Creep", 10).in("1/s").range(0, 1e6).says("How fast strain beyond the yield stays."),
         jet::real("most-flow", "Flows at most", 0.5).in("× rest length").range(0, 0.95),
@@ -89,6 +94,8 @@ jet::SoftMatter matterOf(const jet::EffectInput& in)
     matter.thickness = std::min(in.get<double>("thickness"), 0.1 * in.path.bounds().size().minCoeff());
     matter.pressure = in.get<double>("pressure");
     matter.areaStiffness = in.get<double>("area-stiffness");
+    matter.shapeStiffness = in.get<double>("shape-stiffness");
+    matter.shapeDamping = in.get<double>("shape-damping");
     matter.yield = in.get<double>("yield");
     matter.creep = in.get<double>("creep");
     matter.mostFlow = in.get<double>("most-flow");

@@ -18,6 +18,12 @@ struct SoftMatter {
     double pressure = 0;
     /// Force / unit, >= 0: pressure that resists a change of its area, times the relative change.
     double areaStiffness = 0;
+    /// Force / unit, >= 0: ks of the springs that draw each particle to its place in an invisible rigid twin, which has
+    /// the shape of the definition, meets nothing, weighs nothing and lies as the body does as a whole (thesis §2.4.3.6).
+    /// Of a particle of mean mass; on others it is in proportion to their mass. 0: there is no twin.
+    double shapeStiffness = 0;
+    /// Force / (unit / s), >= 0: kd of these springs.
+    double shapeDamping = 0.1;
     /// Strain, >= 0, beyond which its springs begin to flow and stay changed; 0: they never do.
     double yield = 0;
     /// 1/s, >= 0: how fast the strain beyond the yield becomes permanent.
