@@ -133,6 +133,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     springs_.add(state_, def, handle, nodeOf);
     shapes_.add(state_, def, handle, nodeOf);
     queries_.addSoft(handle);
+    structure_.add(def);
     return finishBody(def.common);
 }
 
@@ -157,6 +158,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
         keepNormals();
     }
     queries_.addRigid(state_, handle, def);
+    structure_.add(def);
     return finishBody(def.common);
 }
 
@@ -239,6 +241,7 @@ ActuatorHandle World::addSpring(const SpringActuatorDef& def)
     checks().check(actuators_.springCount(), def, bodyCount());
     wakeHeld(def.a), wakeHeld(def.b);
     rate_ = -1;
+    structure_.add(def);
     return actuators_.add(state_, def);
 }
 
@@ -247,6 +250,7 @@ ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
     checks().check(actuators_.angularSpringCount(), def, bodyCount());
     wakeHeld(def.a), wakeHeld(def.centre), wakeHeld(def.b);
     rate_ = -1;
+    structure_.add(def);
     return actuators_.add(state_, def);
 }
 
@@ -256,6 +260,7 @@ ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
     checks().check(item, def.at, bodyCount());
     checks().number(item, "value", def.value);
     wakeHeld(def.at);
+    structure_.add(def);
     return actuators_.add(state_, def);
 }
 
@@ -263,6 +268,7 @@ ActuatorHandle World::addForceField(const ForceFieldDef& def)
 {
     checks().check(fields_.count(), def);
     rigid_.wakeAll(state_);
+    structure_.add(def);
     return fields_.add(def);
 }
 
@@ -272,6 +278,7 @@ ActuatorHandle World::addForce(const ForceActuatorDef& def)
     checks().check(item, def.at, bodyCount());
     checks().number(item, "value", def.force);
     wakeHeld(def.at);
+    structure_.add(def);
     return actuators_.add(state_, def);
 }
 

@@ -14,6 +14,7 @@
 #include "soft/twins.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
+#include "structure.hpp"
 
 namespace jet::physics {
 
@@ -158,6 +159,7 @@ private:
 
     WorldSettings settings_;
     State state_;
+    Structure structure_;
     SoftSprings springs_;
     ShapeMemory shapes_;
     soft::Twins twins_;
@@ -192,6 +194,8 @@ private:
     StepStats stats_;
     std::vector<Index> islands_;  // [bodies] kNone: none, or asleep
     bool islandsKnown_ = false;   // are they those of the last step?
+
+    std::size_t savedBytes_ = 4096;  // of the last state that was saved
 
     StiffnessBounds bounds_;
     double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added

@@ -203,19 +203,66 @@ void World::archive(Self& self, Archive& with)
     with.list(self.touching_, [&](std::uint64_t& pair) { with(pair); });
 }
 
+namespace {
+
+template <class T>
+T readAt(std::span<const std::byte> bytes, std::size_t at)
+{
+    T value{};
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+/// The dynamic part of a saved state, if it is whole and of a world that is made like this.
+std::span<const std::byte> opened(std::span<const std::byte> bytes, const Structure::Tag& made)
+{
+    if (bytes.size() < kStateHead + kStateSeal || readAt<std::uint64_t>(bytes, 0) != kStateMark)
+        checks().fail(
+            "these bytes are no saved state of this engine, or one of another version; restore what save() gave.");
+    const auto tag = readAt<Structure::Tag>(bytes, sizeof kStateMark);
+    if (!(tag == made)) {
+        const auto counts = [](const Structure::Tag& of) {
+            return std::to_string(of.bodies) + " bodies, " + std::to_string(of.joints) + " joints and " +
+                   std::to_string(of.actuators) + " springs, torques, forces and fields";
+        };
+        const bool other = tag.bodies == made.bodies && tag.joints == made.joints && tag.actuators == made.actuators;
+        checks().fail("the saved state is of a world made otherwise" +
+                      (other ? ", of as many bodies of other shapes, or joined at other places"
+                             : ": it has " + counts(tag) + ", this one " + counts(made)) +
+                      "; restore it into the world that saved it, or one built from the same scene.");
+    }
+    const auto state = dynamicPart(bytes);
+    if (hashOf(state) != readAt<std::uint64_t>(bytes, bytes.size() - kStateSeal))
+        checks().fail("the saved state is damaged: its bytes are not as they were saved.");
+    return state;
+}
+
+}  // namespace
+
 std::vector<std::byte> World::save() const
 {
     refresh();
     reportIfAsked();
-    SaveArchive archiveOut;
-    archive(const_cast<World&>(*this), archiveOut);  // stages offer one list for both directions; saving only reads
-    return archiveOut.take();
+    auto& self = const_cast<World&>(*this);  // stages offer one list for both directions; saving only reads
+    SaveArchive archiveOut(savedBytes_ + savedBytes_ / 16);
+    archiveOut(kStateMark), archiveOut(structure_.tag());
+    archive(self, archiveOut);
+    archiveOut(std::uint64_t{0});
+    std::vector<std::byte> state = archiveOut.take();
+    seal(state);
+    self.savedBytes_ = state.size();
+    return state;
 }
 
-std::uint64_t World::hash() const { return hashOf(save()); }
+std::uint64_t World::hash() const
+{
+    const std::vector<std::byte> bytes = save();
+    return readAt<std::uint64_t>(bytes, bytes.size() - kStateSeal);
+}
 
 void World::restore(std::span<const std::byte> bytes)
 {
+    const std::span<const std::byte> state = opened(bytes, structure_.tag());
     const std::vector<std::byte> before = save();
     const auto read = [this](std::span<const std::byte> from) {
         RestoreArchive archiveIn(from);
@@ -231,9 +278,9 @@ void World::restore(std::span<const std::byte> bytes)
         pushed_ = true;
     };
     try {
-        read(bytes);
+        read(state);
     } catch (...) {
-        read(before);
+        read(opened(before, structure_.tag()));
         throw;
     }
     rigid_.rebuild();

@@ -98,9 +98,10 @@ JointHandle World::addJoint(const JointDef& def)
             checks().fail("joint " + std::to_string(handle) + ": body " + std::to_string(anchor->body) +
                           " has no simple rigid shape; joints hold those, soft bodies and the background. Give it "
                           "shapes, or use a spring between bodies.");
-    wakeHeld(def);
     jointsAt_.push_back({soft, soft ? softJoints_.add(state_, def) : rigid_.addJoint(state_, def)});
+    wakeHeld(def);
     if (soft) finder_.exclude(softJoints_.excluded());
+    structure_.add(def);
     return handle;
 }
 

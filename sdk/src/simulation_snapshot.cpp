@@ -1,15 +1,18 @@
 // Saving and restoring a simulation, and the picture of its world.
+#include "hasher.hpp"
 #include "simulation_state.hpp"
 
 #include <jet/physics_view.hpp>
 
 #include <cstring>
+#include <map>
 
 namespace jet {
 
 namespace {
 
 struct Head {
+    std::uint64_t seal = 0;  // of what follows, up to the world's state, which has one of its own
     std::uint64_t steps = 0, random = 0, printed = 0, torques = 0;
     double anchorX = 0, anchorY = 0, scale = 1;
 };
@@ -17,6 +20,20 @@ struct SavedTorque {
     std::uint64_t item = 0;
     double value = 0;
 };
+
+std::uint64_t sealOf(const Head& head, const std::map<ItemId, double>& torques)
+{
+    Hasher h;
+    for (const std::uint64_t word : {head.steps, head.random, head.printed, head.torques}) h.add(word);
+    for (const double number : {head.anchorX, head.anchorY, head.scale}) h.add(number);
+    for (const auto& [item, value] : torques) h.add(item.value), h.add(value);
+    return h.value();
+}
+
+[[noreturn]] void failDamaged()
+{
+    throw Failure(Error("the saved state of the simulation is damaged: its bytes are not as they were saved"));
+}
 
 template <class T>
 void put(std::vector<std::byte>& out, const T& value)
@@ -28,7 +45,7 @@ void put(std::vector<std::byte>& out, const T& value)
 template <class T>
 T take(std::span<const std::byte>& from)
 {
-    if (from.size() < sizeof(T)) throw Failure(Error("the saved state of the simulation is damaged"));
+    if (from.size() < sizeof(T)) failDamaged();
     T value;
     std::memcpy(&value, from.data(), sizeof value);
     from = from.subspan(sizeof value);
@@ -41,8 +58,9 @@ std::vector<std::byte> Simulation::save() const
 {
     std::vector<std::byte> out;
     const View& view = d_->view.view;
-    put(out,
-        Head{d_->steps, d_->random, d_->printed, d_->torques.size(), view.anchor.x(), view.anchor.y(), view.scale});
+    Head head{0, d_->steps, d_->random, d_->printed, d_->torques.size(), view.anchor.x(), view.anchor.y(), view.scale};
+    head.seal = sealOf(head, d_->torques);
+    put(out, head);
     for (const auto& [item, value] : d_->torques) put(out, SavedTorque{item.value, value});
     const std::vector<std::byte> world = d_->world->save();
     out.insert(out.end(), world.begin(), world.end());
@@ -52,13 +70,13 @@ std::vector<std::byte> Simulation::save() const
 void Simulation::restore(std::span<const std::byte> state)
 {
     const auto head = take<Head>(state);
-    if (head.torques > state.size() / sizeof(SavedTorque))
-        throw Failure(Error("the saved state of the simulation is damaged"));
+    if (head.torques > state.size() / sizeof(SavedTorque)) failDamaged();
     std::map<ItemId, double> torques;
     for (std::uint64_t i = 0; i < head.torques; ++i) {
         const auto saved = take<SavedTorque>(state);
         torques[ItemId{saved.item}] = saved.value;
     }
+    if (sealOf(head, torques) != head.seal) failDamaged();
     d_->world->restore(state);  // refuses what does not fit, and changes nothing then
     d_->torques = std::move(torques);
     d_->steps = head.steps, d_->random = head.random, d_->printed = head.printed;

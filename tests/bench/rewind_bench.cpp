@@ -99,6 +99,7 @@ int main(int argc, char** argv)
         jet::PhysicsEngine& own = *catalog.physicsEngine("jet-physics");
         measure(summary, "60 boxes", own, 60, 0);
         measure(summary, "1,000 boxes", own, 1000, 0);
+        measure(summary, "10,000 boxes", own, 10000, 0);
         measure(summary, "36 soft balls", own, 0, 36);
         try {
             catalog.load("org.jet.physics-box2d");

@@ -86,8 +86,18 @@ Outcome foreign(const Lab& lab)
     attempt({});
     attempt(std::vector<std::byte>(1000, std::byte{0x5a}));
     attempt(std::span(state).first(state.size() - 3));
+    // Damaged on the way.
+    for (std::size_t at = 0; at < state.size(); at += 1 + state.size() / 5) {
+        std::vector<std::byte> damaged = state;
+        damaged[at] ^= std::byte{32};
+        attempt(damaged);
+    }
+    // A world that is made of something else.
+    const auto other = scene(lab);
+    other->addRigidBody(box({400, -20}, 10, 10));
+    attempt(other->save());
     if (world->hash() != before) return holds(false, "a refused state changed the world");
-    return measured(accepted, "broken states of 3 taken", 0);
+    return measured(accepted, "broken states of 9 taken", 0);
 }
 
 Outcome oneBit(const Lab& lab)

@@ -198,6 +198,14 @@ TEST_F(RewindTest, ADamagedStateIsRefused)
     state.resize(state.size() - 5);
     EXPECT_THROW(simulation->restore(state), Failure);
     EXPECT_THROW(simulation->restore({}), Failure);
+    const Bytes whole = simulation->save();
+    for (std::size_t at = 0; at < whole.size(); at += at < 80 ? 3 : 61) {
+        Bytes flipped = whole;
+        flipped[at] ^= std::byte{4};
+        EXPECT_THROW(simulation->restore(flipped), Failure) << "byte " << at;
+        ASSERT_EQ(simulation->hash(), before) << "byte " << at;
+    }
+    simulation->restore(whole);
     EXPECT_EQ(simulation->hash(), before);
 }
 

@@ -1,6 +1,7 @@
 // Composite bodies: springs to an invisible rigid twin, against formulas and against a twin built by hand.
 #include "formulas.hpp"
 #include "lattices.hpp"
+#include "snapshot.hpp"
 
 #include <jet/result.hpp>
 
@@ -35,12 +36,13 @@ void deform(PhysicsWorld& world, Map&& map)
     auto bytes = world.save();
     for (std::uint32_t i = 0; i < kCount; ++i) {
         double at[2];
-        std::byte* const place = bytes.data() + sizeof(std::uint64_t) + i * sizeof at;
+        std::byte* const place = bytes.data() + kStateHead + sizeof(std::uint64_t) + i * sizeof at;
         std::memcpy(at, place, sizeof at);
         const Vec2 moved = map(Vec2(at[0], at[1]));
         at[0] = moved.x(), at[1] = moved.y();
         std::memcpy(place, at, sizeof at);
     }
+    seal(bytes);
     world.restore(bytes);
 }
 

@@ -1,5 +1,6 @@
 // Soft bodies come back to their shape, whatever crushed them, and by nothing but inner forces.
 #include "lattices.hpp"
+#include "snapshot.hpp"
 #include "soft/layout.hpp"
 
 #include <cstring>
@@ -39,8 +40,8 @@ double farthest(std::span<const Vec2> points, const SoftBodyDef& def)
     return most / std::sqrt(inertia / massOf(def));
 }
 
-/// The soft body of a world that was added first. A snapshot begins with the positions and velocities of all nodes, in
-/// the order their springs like best.
+/// The soft body of a world that was added first. The dynamic part of a snapshot begins with the positions and
+/// velocities of all nodes, in the order their springs like best.
 struct Particles {
     std::vector<Vec2> position, velocity;
 
@@ -54,6 +55,7 @@ struct Particles {
     {
         auto bytes = world.save();
         exchange(bytes, [](const Vec2& ours, std::byte* theirs) { std::memcpy(theirs, ours.data(), sizeof(Vec2)); });
+        seal(bytes);
         world.restore(bytes);
     }
 
@@ -62,10 +64,11 @@ private:
     void exchange(Bytes&& bytes, Copy&& copy)
     {
         std::uint64_t nodes = 0;
-        std::memcpy(&nodes, bytes.data(), sizeof nodes);
+        auto* const first = bytes.data() + kStateHead;
+        std::memcpy(&nodes, first, sizeof nodes);
         for (std::size_t k = 0; k < order_.size(); ++k) {
-            copy(position[order_[k]], bytes.data() + sizeof nodes + k * sizeof(Vec2));
-            copy(velocity[order_[k]], bytes.data() + 2 * sizeof nodes + (nodes + k) * sizeof(Vec2));
+            copy(position[order_[k]], first + sizeof nodes + k * sizeof(Vec2));
+            copy(velocity[order_[k]], first + 2 * sizeof nodes + (nodes + k) * sizeof(Vec2));
         }
     }
 

@@ -165,6 +165,50 @@ TEST(Snapshot, RestoringWhatWasJustSavedChangesNoBit)
     }
 }
 
+std::string refusal(PhysicsWorld& world, std::span<const std::byte> state)
+{
+    try {
+        world.restore(state);
+    } catch (const Failure& failure) {
+        return failure.error().message;
+    }
+    return {};
+}
+
+TEST(Snapshot, OneFlippedBitAnywhereIsRefusedAndChangesNothing)
+{
+    auto world = busyWorld();
+    run(*world, 1);
+    const auto saved = world->save();
+    const std::uint64_t before = world->hash();
+    for (std::size_t at = 0; at < saved.size(); at += at < 64 ? 1 : 977) {
+        auto flipped = saved;
+        flipped[at] ^= std::byte{1} << static_cast<int>(at % 8);
+        EXPECT_FALSE(refusal(*world, flipped).empty()) << "byte " << at;
+        ASSERT_EQ(world->hash(), before) << "byte " << at;
+    }
+    auto damaged = saved;
+    damaged[saved.size() / 2] ^= std::byte{16};
+    EXPECT_NE(refusal(*world, damaged).find("damaged"), std::string::npos);
+    auto longer = saved;
+    longer.push_back(std::byte{0});
+    EXPECT_FALSE(refusal(*world, longer).empty());
+    EXPECT_EQ(refusal(*world, saved), "");
+}
+
+TEST(Snapshot, AWorldThatHasBecomeAnotherRefusesWhatItWas)
+{
+    auto world = busyWorld();
+    run(*world, 0.5);
+    const auto saved = world->save();
+    world->addRigidBody(box({0, -250}, 10, 10));
+    EXPECT_NE(refusal(*world, saved).find("it has 17 bodies, 0 joints"), std::string::npos) << refusal(*world, saved);
+    auto one = makeWorld({0, 100}), other = makeWorld({0, 100});
+    one->addRigidBody(simple(box({0, 0}, 10, 10)));
+    other->addRigidBody(simple(box({0, 0}, 10, 12)));
+    EXPECT_NE(refusal(*other, one->save()).find("other shapes"), std::string::npos) << refusal(*other, one->save());
+}
+
 }  // namespace
 
 }  // namespace jet::physics::test
