@@ -11,6 +11,7 @@ constexpr float kPushLengths = 4;  // overlaps are pushed out no faster than thi
 constexpr float kSlopsPerLength = 500;
 constexpr float kPushPerSlop = kPushLengths * kSlopsPerLength;
 constexpr std::uint32_t kGroupsABlock = 16;
+constexpr std::size_t kGroupsAhead = 3;
 constexpr std::size_t kIdleABlock = 512;
 constexpr std::size_t kPrefetched = 4;
 
@@ -109,50 +110,116 @@ void Solver<Real>::settleBlocks(Collider& collider, std::size_t count, bool reso
     }
 }
 
+/// Writes constraints anew, those of single precision eight at a time.
 template <class Real>
-void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Block& block)
+class Solver<Real>::Rewriter {
+public:
+    Rewriter(Solver& solver, const Collider& collider) : solver_(solver), collider_(collider) {}
+
+    void add(const RigidContact& c, Place place)
+    {
+        if constexpr (!std::is_same_v<Real, float>) {
+            solver_.write(collider_, c, place);
+        } else {
+            Colour& colour = solver_.colourAt(place);
+            const std::size_t group = laneAt(place) / kWidth, lane = laneAt(place) % kWidth;
+            if (solver_.bounces_) colour.bounces[group].restitution[lane] = c.restitution;
+            waiting_[count_++] = {&c, &colour.contacts[group], &colour.frictions[group], lane};
+            if (count_ == kWidth) write();
+        }
+    }
+    void finish()
+    {
+        if (count_ == 0) return;
+        std::fill(waiting_ + count_, waiting_ + kWidth, waiting_[0]);
+        write();
+    }
+
+private:
+    void write()
+    {
+        if constexpr (std::is_same_v<Real, float>)
+            solver_.kernels_->writeContacts(waiting_, collider_.poses().data(), solver_.states_.data());
+        count_ = 0;
+    }
+
+    Solver& solver_;
+    const Collider& collider_;
+    LaneOfContact waiting_[kWidth];
+    std::size_t count_ = 0;
+};
+
+/// Lanes whose bodies may have moved, as bits; none is jumped over, as they follow no pattern.
+template <class Real>
+std::uint32_t Solver<Real>::dueLanes(const Colour& colour, std::size_t group, bool all) const
+{
+    const ContactLanes<Real>& g = colour.contacts[group];
+    std::uint32_t due = 0;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        const float drift = drifts_[slotAt<Real>(g.a[lane])] + drifts_[slotAt<Real>(g.b[lane])];
+        due |= static_cast<std::uint32_t>(kPushPerSlop * drift > static_cast<float>(g.mostPush[lane])) << lane;
+    }
+    if (!all) return due;
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+        due |= static_cast<std::uint32_t>(colour.index[group * kWidth + lane] != kNone) << lane;
+    return due;
+}
+
+/// Lists what of a block is due, and fetches the impulses. What it reads of contacts lies anywhere in memory: it is
+/// asked for some groups ahead.
+template <class Real>
+void Solver<Real>::listDue(Collider& collider, Block& block)
 {
     auto& contacts = collider.contacts();
-    const float* drift = drifts_.data();
-    const bool all = collider.anyDisturbed();
     const Pose* poses = collider.poses().data();
     const Colour& colour = colours_[block.colour];
-    block.due.clear();
-    for (std::size_t group = block.first; group < block.last; ++group) {
+    std::uint32_t due[kGroupsABlock] = {};
+    const auto ask = [&](std::size_t group) {
+        if (group >= block.last) return;
         const ContactLanes<Real>& g = colour.contacts[group];
-        const Index* index = &colour.index[group * kWidth];
-        bool due[kWidth];
-        for (std::size_t lane = 0; lane < kWidth; ++lane) {
-            due[lane] = index[lane] != kNone &&
-                        (all || kPushPerSlop * (drift[slotAt<Real>(g.a[lane])] + drift[slotAt<Real>(g.b[lane])]) >
-                                    static_cast<float>(g.mostPush[lane]));
-            if (!due[lane]) continue;
-            __builtin_prefetch(&contacts[index[lane]], 1);
-            __builtin_prefetch(reinterpret_cast<const char*>(&contacts[index[lane]]) + 64, 1);
+        due[group - block.first] = dueLanes(colour, group, collider.anyDisturbed());
+        for (std::uint32_t rest = due[group - block.first]; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+            const RigidContact* contact = &contacts[colour.index[group * kWidth + lane]];
+            __builtin_prefetch(contact, 1);
+            __builtin_prefetch(reinterpret_cast<const char*>(contact) + 64, 1);
             for (const std::int32_t far : {g.a[lane], g.b[lane]})
                 if (far != 0) __builtin_prefetch(&poses[domains_.bodyAt(slotAt<Real>(far))]);
         }
-        for (std::size_t lane = 0; lane < kWidth; ++lane) {
-            if (!due[lane]) continue;
-            RigidContact& c = contacts[index[lane]];
+    };
+    block.due.clear();
+    for (std::size_t group = block.first; group < block.first + kGroupsAhead; ++group) ask(group);
+    for (std::size_t group = block.first; group < block.last; ++group) {
+        ask(group + kGroupsAhead);
+        for (std::uint32_t rest = due[group - block.first]; rest != 0; rest &= rest - 1) {
+            const std::size_t at = group * kWidth + static_cast<std::size_t>(__builtin_ctz(rest));
+            RigidContact& c = contacts[colour.index[at]];
             if (!collider.due(c)) continue;
             for (const Index part : {c.partA, c.partB}) prefetch(collider.parts()[part]);
-            fetch(c, placeOf(block.colour, group * kWidth + lane));
-            block.due.push_back(index[lane]);
+            fetch(c, placeOf(block.colour, at));
+            block.due.push_back(colour.index[at]);
         }
     }
+}
+
+template <class Real>
+void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Block& block)
+{
+    listDue(collider, block);
     collider.update(block.due, block.looks, dt);
+    Rewriter rewriter(*this, collider);
     for (std::size_t i = 0; i < block.due.size(); ++i) {
         const Collider::Look& look = block.looks[i];
-        const RigidContact& c = contacts[block.due[i]];
+        const RigidContact& c = collider.contacts()[block.due[i]];
         block.foresees |= look.hits;
         if (look.kept && c.count > 0 && c.resolve && resolve) {
-            write(collider, c, collider.places()[block.due[i]]);
+            rewriter.add(c, collider.places()[block.due[i]]);
             block.hardest = std::max(block.hardest, look.speed);
         } else {
             block.outcomes.push_back({block.due[i], look.kept});
         }
     }
+    rewriter.finish();
 }
 
 template <class Real>
@@ -336,7 +403,6 @@ template <class Real>
 void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place place)
 {
     const Pose &poseA = collider.poses()[c.bodyA], &poseB = collider.poses()[c.bodyB];
-    const BodyState<Real>&a = body(c.bodyA), &b = body(c.bodyB);
     Colour& colour = colourAt(place);
     const std::size_t group = laneAt(place) / kWidth, lane = laneAt(place) % kWidth;
     ContactLanes<Real>& g = colour.contacts[group];
@@ -346,6 +412,7 @@ void Solver<Real>::write(const Collider& collider, const RigidContact& c, Place 
         return is.moves || is.kinematic ? farOf<Real>(domains_.slotOf(index)) : 0;
     };
     g.a[lane] = shown(c.bodyA), g.b[lane] = shown(c.bodyB);
+    const BodyState<Real>&a = states_[slotAt<Real>(g.a[lane])], &b = states_[slotAt<Real>(g.b[lane])];
     const Vec2f n = turned(poseA.turn, c.normal);
     const Real nx = n.x, ny = n.y;
     g.normalX[lane] = nx, g.normalY[lane] = ny;

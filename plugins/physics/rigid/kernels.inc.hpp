@@ -390,6 +390,7 @@ void bounceContacts(BodyState<Real>* bodies, ContactLanes<Real>* groups, Frictio
 }
 
 #include "joint_kernels.inc.hpp"
+#include "row_kernels.inc.hpp"
 
 template <class Real>
 void integrateVelocities(BodyState<Real>* bodies, BodyPush<Real>* pushes, std::size_t count,
@@ -453,12 +454,11 @@ bool turnBodies(const double* angles, double* directions, std::size_t count)
 template <class Real>
 constexpr Kernels<Real> table()
 {
-    return {calmContacts<Real>,       warmContacts<Real>,  warmJoints<Real>,
-            solveContacts<Real>,      relaxContacts<Real>, approachContacts<Real>,
-            scaleContacts<Real>,      carryContacts<Real>, bounceContacts<Real>,
-            startJoints<Real>,        foreseeJoints<Real>, pushJoints<Real>,
-            relaxJoints<Real>,        turnJoints<Real>,    integrateVelocities<Real>,
-            integratePositions<Real>, turnBodies};
+    return {calmContacts<Real>,   warmContacts<Real>,     warmJoints<Real>,          solveContacts<Real>,
+            relaxContacts<Real>,  approachContacts<Real>, scaleContacts<Real>,       carryContacts<Real>,
+            bounceContacts<Real>, startJoints<Real>,      foreseeJoints<Real>,       pushJoints<Real>,
+            relaxJoints<Real>,    turnJoints<Real>,       integrateVelocities<Real>, integratePositions<Real>,
+            turnBodies,           writeContacts};
 }
 
 }  // namespace

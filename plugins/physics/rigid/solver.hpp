@@ -221,6 +221,9 @@ private:
     };
     void refreshPlaced(Collider&, double dt, bool resolve);
     void refreshBlock(Collider&, double dt, bool resolve, Block&);
+    std::uint32_t dueLanes(const Colour&, std::size_t group, bool all) const;
+    void listDue(Collider&, Block&);
+    class Rewriter;
     void refreshIdle(Collider&, double dt, bool resolve);
     void refreshIdle(Collider&, double dt, std::size_t first, std::size_t last, Block&);
     void settleBlocks(Collider&, std::size_t count, bool resolve);

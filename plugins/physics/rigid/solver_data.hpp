@@ -144,6 +144,16 @@ struct StepConstants {
                                            // substep, and get the impulses that are left at the end of each
 };
 
+struct RigidContact;
+struct Pose;
+/// A contact that has points, and where its constraint lies.
+struct LaneOfContact {
+    const RigidContact* contact = nullptr;
+    ContactLanes<float>* group = nullptr;
+    FrictionLanes<float>* friction = nullptr;
+    std::size_t lane = 0;
+};
+
 template <class Real>
 struct Kernels {
     // Groups of one call to calm, solve or relax contacts have no moving body in common.
@@ -183,6 +193,8 @@ struct Kernels {
     void (*integratePositions)(BodyState<Real>*, std::size_t, Real h);
     /// (cos, sin) of angles, as direction() has them; false: some are too far for it, and theirs are not true.
     bool (*turnBodies)(const double* angles, double* directions, std::size_t);
+    /// Writes the constraints of eight contacts anew, for the same bodies as before; of `states`, in slots.
+    void (*writeContacts)(const LaneOfContact* eight, const Pose*, const BodyState<float>* states);
 };
 
 /// The kernels for this processor, or those asked for where it has them.

@@ -73,11 +73,12 @@ JET_INLINE void transpose(Lanes<float> (&c)[4])
 template <class Of>
 JET_INLINE void gatherRows(const Of& of, Lanes<float>& x, Lanes<float>& y, Lanes<float>& z, Lanes<float>& w)
 {
-    Lanes<float> c[4];
-    for (int i = 0; i < 4; ++i) {
+    // Written out: of a loop the compiler makes one through memory.
+    const auto rows = [&](int i) JET_INLINED {
         const Four low = *reinterpret_cast<const Four*>(of(i)), high = *reinterpret_cast<const Four*>(of(i + 4));
-        c[i] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-    }
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    Lanes<float> c[4] = {rows(0), rows(1), rows(2), rows(3)};
     transpose(c);
     x = c[0], y = c[1], z = c[2], w = c[3];
 }
