@@ -7,6 +7,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 namespace jet::physics {
 
@@ -23,7 +24,8 @@ constexpr float kLongTypical = 6;  // typical lengths: longer thin parts are sou
 constexpr int kMostPieces = 64;
 constexpr std::size_t kSoughtABlock = 128;  // parts
 
-constexpr std::size_t kPrefetched = 6;  // pairs
+constexpr std::size_t kAddedABlock = 32;  // pairs
+constexpr std::size_t kPrefetched = 6;    // pairs
 
 /// Sorts by the left side, then by the part.
 std::uint64_t leftOf(const FatBox& box, Index part)
@@ -356,7 +358,7 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
 void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena)
 {
     if (!sweep_.anyMoved()) return;
-    sweep_.begin(arena);
+    sweep_.begin(arena, pool);
     const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
     if (foundBy_.size() < blocks) foundBy_.resize(blocks);
     // From left to right: the order decides the order of solving, and this one lets tall heaps rest.
@@ -368,37 +370,76 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena
             const std::uint64_t left = leftOf(sweep_.box(a), a), right = leftOf(sweep_.box(b), b);
             found.push_back(right >> 32 < left >> 32 ? FoundPair{right, left} : FoundPair{left, right});
         });
-        std::erase_if(found, [&](const FoundPair& pair) {
-            return known_.contains(RigidContact::keyOf(pair.partA(), pair.partB()));
-        });
+        std::erase_if(found, [&](const FoundPair& pair) { return known_.contains(pair.key()); });
         std::sort(found.begin(), found.end());
     });
     sweep_.finish(arena);
-    found_.clear();
-    for (std::size_t block = 0; block < blocks; ++block)
-        found_.insert(found_.end(), foundBy_[block].begin(), foundBy_[block].end());
-    std::sort(found_.begin(), found_.end());
+    mergeFound(blocks, pool);
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-        prefetchPair(i + kPrefetched);
-        const Index a = found_[i].partA(), b = found_[i].partB();
-        addPair(std::min(a, b), std::max(a, b), settings);
-    }
+    addFound(settings, pool);
     hits_.resize(contacts_.size(), 0);
 }
 
-/// New pairs lie anywhere in memory.
-void Collider::prefetchPair(std::size_t found) const
+/// What the blocks found, each in order, into one list: neighbours are merged until one is left.
+void Collider::mergeFound(std::size_t blocks, Pool& pool)
 {
-    if (found >= found_.size()) return;
-    for (const Index part : {found_[found].partA(), found_[found].partB()}) {
+    firstOf_.assign(1, 0);
+    for (std::size_t block = 0; block < blocks; ++block) firstOf_.push_back(firstOf_.back() + foundBy_[block].size());
+    found_.resize(firstOf_.back()), merged_.resize(firstOf_.back());
+    const auto at = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+    for (std::size_t block = 0; block < blocks; ++block)
+        std::copy(foundBy_[block].begin(), foundBy_[block].end(), at(found_, firstOf_[block]));
+    for (std::size_t width = 1; width < blocks && !found_.empty(); width *= 2) {
+        auto merge = [&](std::size_t i) {
+            const std::size_t first = firstOf_[2 * i * width], middle = firstOf_[std::min((2 * i + 1) * width, blocks)],
+                              last = firstOf_[std::min((2 * i + 2) * width, blocks)];
+            std::merge(at(found_, first), at(found_, middle), at(found_, middle), at(found_, last), at(merged_, first));
+        };
+        pool.run((blocks + 2 * width - 1) / (2 * width), merge);
+        found_.swap(merged_);
+    }
+}
+
+/// New contacts have their numbers in the order of the pairs; all else of them is up to each alone.
+void Collider::addFound(const WorldSettings& settings, Pool& pool)
+{
+    pool.ranges(found_.size(), kAddedABlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (i + kPrefetched < last) prefetchPair(found_[i + kPrefetched]);
+            found_[i].contact = accepts(found_[i], settings) ? 0 : kNone;
+        }
+    });
+    std::erase_if(found_, [](const FoundPair& pair) { return pair.contact == kNone; });
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        if (i + kPrefetched < found_.size()) known_.prefetch(found_[i + kPrefetched].key());
+        known_.insert(found_[i].key());
+        found_[i].contact = takeContact();
+    }
+    pool.ranges(found_.size(), kAddedABlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) makeContact(found_[i], settings);
+    });
+}
+
+/// New pairs lie anywhere in memory.
+void Collider::prefetchPair(const FoundPair& pair) const
+{
+    for (const Index part : {pair.partA(), pair.partB()}) {
         __builtin_prefetch(&parts_[part]), __builtin_prefetch(&parts_[part].thickness);
     }
-    known_.prefetch(RigidContact::keyOf(found_[found].partA(), found_[found].partB()));
-    if (free_.size() <= kPrefetched) return;
-    const Index contact = free_[free_.size() - 1 - kPrefetched];
-    __builtin_prefetch(&contacts_[contact], 1), __builtin_prefetch(&contacts_[contact].normal, 1);
-    __builtin_prefetch(&nearing_[contact], 1);
+}
+
+Index Collider::takeContact()
+{
+    if (!free_.empty()) {
+        const Index contact = free_.back();
+        free_.pop_back();
+        __builtin_prefetch(&contacts_[contact], 1), __builtin_prefetch(&contacts_[contact].normal, 1);
+        __builtin_prefetch(&nearing_[contact], 1);
+        return contact;
+    }
+    makeRoom(1, contacts_, places_, nearing_);
+    contacts_.emplace_back(), places_.push_back(kIdle), nearing_.emplace_back();
+    return static_cast<Index>(contacts_.size() - 1);
 }
 
 bool Collider::mayMeet(Index a, Index b) const
@@ -410,36 +451,44 @@ bool Collider::mayMeet(Index a, Index b) const
     return (rulesA.layer & rulesB.mask) != 0 && (rulesB.layer & rulesA.mask) != 0;
 }
 
-void Collider::addPair(Index partA, Index partB, const WorldSettings& settings)
+/// A moving round part rests on sides of the other: circles come second.
+std::pair<Index, Index> Collider::orderedParts(const FoundPair& pair) const
 {
-    // A moving round part rests on sides of the other: circles come second.
-    if (parts_[partA].count < parts_[partB].count && parts_[partA].count == 1) std::swap(partA, partB);
+    Index a = std::min(pair.partA(), pair.partB()), b = std::max(pair.partA(), pair.partB());
+    if (parts_[a].count < parts_[b].count && parts_[a].count == 1) std::swap(a, b);
+    return {a, b};
+}
+
+bool Collider::accepts(const FoundPair& pair, const WorldSettings& settings) const
+{
+    const auto [partA, partB] = orderedParts(pair);
     const Index a = parts_[partA].body, b = parts_[partB].body;
-    if (!mayMeet(a, b)) return;
-    const RigidBody &bodyA = bodies_[a], &bodyB = bodies_[b];
-    const MaterialPair& pair =
-        settings.materials[static_cast<std::size_t>(rulesOf(bodyA).material) * settings.materialCount +
-                           rulesOf(bodyB).material];
-    if (!pair.collides) return;
+    return mayMeet(a, b) && materialsOf(a, b, settings).collides && !(isLonger(partA, partB) && apart(partA, partB)) &&
+           !excluded_.contains(bodyKey(a, b));
+}
+
+const MaterialPair& Collider::materialsOf(Index a, Index b, const WorldSettings& settings) const
+{
+    return settings.materials[static_cast<std::size_t>(rulesOf(bodies_[a]).material) * settings.materialCount +
+                              rulesOf(bodies_[b]).material];
+}
+
+void Collider::makeContact(const FoundPair& pair, const WorldSettings& settings)
+{
     RigidContact c;
-    c.partA = partA, c.partB = partB, c.bodyA = a, c.bodyB = b;
-    if ((isLonger(partA, partB) && apart(partA, partB)) || excluded_.contains(bodyKey(a, b))) return;
-    known_.insert(c.key());
-    c.friction = static_cast<float>(pair.friction), c.restitution = static_cast<float>(pair.restitution);
-    const float lengthA = parts_[partA].length, lengthB = parts_[partB].length;
-    c.slop = kSlop * (!bodyA.moves ? lengthB : !bodyB.moves ? lengthA : std::min(lengthA, lengthB));
+    std::tie(c.partA, c.partB) = orderedParts(pair);
+    const Part &partA = parts_[c.partA], &partB = parts_[c.partB];
+    c.bodyA = partA.body, c.bodyB = partB.body;
+    const RigidBody &bodyA = bodies_[c.bodyA], &bodyB = bodies_[c.bodyB];
+    const MaterialPair& materials = materialsOf(c.bodyA, c.bodyB, settings);
+    c.friction = static_cast<float>(materials.friction), c.restitution = static_cast<float>(materials.restitution);
+    c.slop = kSlop * (!bodyA.moves ? partB.length : !bodyB.moves ? partA.length : std::min(partA.length, partB.length));
     c.resolve = !bodyA.sensor && !bodyB.sensor;
-    c.special = bodyA.oneSided || bodyB.oneSided || isLonger(partA, partB);
+    c.special = bodyA.oneSided || bodyB.oneSided || isLonger(c.partA, c.partB);
     Nearing n;
-    n.bodyA = a, n.bodyB = b, n.slop = c.slop;
-    n.thin = kThin * std::min(parts_[partA].thickness, parts_[partB].thickness);
-    if (free_.empty()) {
-        makeRoom(1, contacts_, places_, nearing_);
-        contacts_.push_back(c), places_.push_back(kIdle), nearing_.push_back(n);
-        return;
-    }
-    contacts_[free_.back()] = c, places_[free_.back()] = kIdle, nearing_[free_.back()] = n;
-    free_.pop_back();
+    n.bodyA = c.bodyA, n.bodyB = c.bodyB, n.slop = c.slop;
+    n.thin = kThin * std::min(partA.thickness, partB.thickness);
+    contacts_[pair.contact] = c, places_[pair.contact] = kIdle, nearing_[pair.contact] = n;
 }
 
 void Collider::forget(Index contact)

@@ -175,8 +175,30 @@ private:
     void fitPieces(std::vector<FatBox>&, Index part, const Pose&, float room, double dt) const;
     void fitBox(Index part, const Pose&, float room, double dt);
     void findPairs(const WorldSettings&, Pool&, Arena&);
-    void prefetchPair(std::size_t found) const;
-    void addPair(Index partA, Index partB, const WorldSettings&);
+    /// A pair of parts, the left one first; in the order of their left sides.
+    struct FoundPair {
+        std::uint64_t left = 0, right = 0;
+        Index contact = kNone;  // that it becomes
+        Index partA() const { return static_cast<Index>(left); }
+        Index partB() const { return static_cast<Index>(right); }
+        std::uint64_t key() const { return RigidContact::keyOf(partA(), partB()); }
+        friend bool operator==(const FoundPair& p, const FoundPair& q)
+        {
+            return p.left == q.left && p.right == q.right;
+        }
+        friend bool operator<(const FoundPair& p, const FoundPair& q)
+        {
+            return p.left != q.left ? p.left < q.left : p.right < q.right;
+        }
+    };
+    void mergeFound(std::size_t blocks, Pool&);
+    std::pair<Index, Index> orderedParts(const FoundPair&) const;
+    void prefetchPair(const FoundPair&) const;
+    void addFound(const WorldSettings&, Pool&);
+    bool accepts(const FoundPair&, const WorldSettings&) const;
+    Index takeContact();
+    const MaterialPair& materialsOf(Index bodyA, Index bodyB, const WorldSettings&) const;
+    void makeContact(const FoundPair&, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
     std::size_t nextHit(std::size_t from) const;
     std::size_t nextMarked(std::size_t from) const;
@@ -223,15 +245,9 @@ private:
     std::size_t looks_ = 0;      // mark of the arena
     PairSweep sweep_;
     KeySet known_, excluded_;
-    /// A pair of parts, the left one first; in the order of their left sides.
-    struct FoundPair {
-        std::uint64_t left = 0, right = 0;
-        Index partA() const { return static_cast<Index>(left); }
-        Index partB() const { return static_cast<Index>(right); }
-        friend auto operator<=>(const FoundPair&, const FoundPair&) = default;
-    };
-    std::vector<FoundPair> found_;                 // scratch of findPairs()
+    std::vector<FoundPair> found_, merged_;        // scratch of findPairs()
     std::vector<std::vector<FoundPair>> foundBy_;  // the same, by blocks
+    std::vector<std::size_t> firstOf_;             // [blocks + 1] where what they found begins in it
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;       // [contacts]
     std::vector<Nearing> nearing_;    // [contacts]

@@ -9,7 +9,8 @@ namespace jet::physics {
 namespace {
 
 constexpr std::size_t kMarkedABlock = 1024;  // contacts
-constexpr int kPasses = 1, kHeld = 2;        // marks of those whose bodies may pass, of those with a body held back
+constexpr std::size_t kBodiesABlock = 128;
+constexpr int kPasses = 1, kHeld = 2;  // marks of those whose bodies may pass, of those with a body held back
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
@@ -170,17 +171,24 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
     allowed.assign(bodies_.size(), 1.0F);
     if (contacts_.empty()) return;
     moved_.resize(bodies_.size());
-    float farthest = 0;
-    for (Index i = 1; i < bodies_.size(); ++i) {
-        moved_[i] = {static_cast<float>(moves[i].x()), static_cast<float>(moves[i].y())};
-        farthest = std::max({farthest, std::abs(moved_[i].x), std::abs(moved_[i].y)});
-        if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
-    }
+    std::atomic<float> farthest = 0;
+    pool.ranges(bodies_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
+        float most = 0;
+        for (auto i = static_cast<Index>(std::max<std::size_t>(first, 1)); i < last; ++i) {
+            moved_[i] = {static_cast<float>(moves[i].x()), static_cast<float>(moves[i].y())};
+            most = std::max({most, std::abs(moved_[i].x), std::abs(moved_[i].y)});
+            if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
+        }
+        float before = farthest.load(std::memory_order_relaxed);
+        while (before < most && !farthest.compare_exchange_weak(before, most, std::memory_order_relaxed)) {
+        }
+    });
+    const float dropped = 1e-6F * farthest.load(std::memory_order_relaxed);  // the digits that single precision drops
     pool.ranges(contacts_.size(), kMarkedABlock, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const Nearing& n = nearing_[i];
             const Vec2f rough = moved_[n.bodyB] - moved_[n.bodyA];
-            const float most = 0.9999F * n.thin - 1e-6F * farthest;  // the digits that single precision drops
+            const float most = 0.9999F * n.thin - dropped;
             const bool passes = !(most > 0) | !(dot(rough, rough) <= most * most);
             const bool held = (allowed[n.bodyA] < 1) | (allowed[n.bodyB] < 1);
             hits_[i] = static_cast<std::uint8_t>((passes ? kPasses : 0) | (held ? kHeld : 0));

@@ -41,6 +41,9 @@ void Domains::place()
         ranges_[kRoot] = {kGap, static_cast<Index>(std::max<std::size_t>(count_, 1)) + kGap - 1};
         return;
     }
+    std::size_t stretches = 0;
+    for (std::size_t body = 1; body < nodes_.size(); ++body) stretches += nodes_[body] != nodes_[body - 1];
+    mixed_ = stretches * kStretch > nodes_.size();
     slots_.assign(count_, 0);
     bodies_.assign(kGap, kNone);
     bodies_[0] = 0;

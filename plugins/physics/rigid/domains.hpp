@@ -17,7 +17,7 @@ namespace jet::physics {
 class Domains {
 public:
     using Node = std::uint8_t;
-    static constexpr std::size_t kBlock = 512;  // slots a thread takes at once where there are no domains
+    static constexpr std::size_t kBlock = 128;  // bodies a thread takes at once
     static constexpr Node kRoot = 1;
     static constexpr int kMostDepth = 2, kLevels = kMostDepth + 1;
     static constexpr std::size_t kNodes = (std::size_t{2} << kMostDepth) - 1;
@@ -69,29 +69,30 @@ public:
     /// Bodies that came since the division; they are the root's.
     std::size_t newcomers() const { return newcomers_; }
 
-    /// Calls work(body, slot) for each body, those of different domains at once. One thread goes by the bodies'
-    /// numbers, as other stages keep them in that order.
+    /// Calls work(body, slot) for each body, many at once. All but the solver keeps bodies in the order of their
+    /// numbers. Where each domain has stretches of those, it goes by domains, as the solver does; where they are mixed
+    /// it goes by numbers, so that a line of memory is one thread's, and the same one's in each step.
     template <class Work>
     void eachBody(Pool& pool, Work&& work) const
     {
-        const auto range = [&](std::size_t first, std::size_t last) {
-            for (auto slot = static_cast<Index>(first); slot < last; ++slot) work(bodyAt(slot), slot);
-        };
-        if (pool.threads() == 1) {
-            for (Index body = 1; body < count_; ++body) work(body, slotOf(body));
+        if (depth_ > 0 && !mixed_ && pool.threads() > 1) {
+            const auto range = [&](std::size_t first, std::size_t last) {
+                for (auto slot = static_cast<Index>(first); slot < last; ++slot) work(bodies_[slot], slot);
+            };
+            // Each domain begins elsewhere, so that threads do not go side by side through the same lines.
+            pool.run(leaves(), [&](std::size_t i) {
+                const Slots slots = ranges_[leaf(i)];
+                const std::size_t start = slots.first + (slots.last - slots.first) * i / leaves();
+                range(start, slots.last), range(slots.first, start);
+            });
+            const Slots rest = ranges_[kRoot];
+            pool.ranges(rest.last - rest.first, kBlock,
+                        [&](std::size_t first, std::size_t last) { range(rest.first + first, rest.first + last); });
             return;
         }
-        // Bodies of all domains are mixed in other stages' memory. Each domain begins elsewhere, so that threads do not
-        // go side by side through the same lines.
-        auto domain = [&](std::size_t i) {
-            const Slots slots = ranges_[leaf(i)];
-            const std::size_t start = slots.first + (slots.last - slots.first) * i / leaves();
-            range(start, slots.last), range(slots.first, start);
-        };
-        if (depth_ > 0) pool.run(leaves(), domain);
-        const Slots rest = ranges_[kRoot];
-        pool.ranges(rest.last - rest.first, kBlock,
-                    [&](std::size_t first, std::size_t last) { range(rest.first + first, rest.first + last); });
+        pool.ranges(std::max<std::size_t>(count_, 1) - 1, kBlock, [&](std::size_t first, std::size_t last) {
+            for (auto body = static_cast<Index>(first + 1); body <= last; ++body) work(body, slotOf(body));
+        });
     }
 
     /// New bodies go to the root.
@@ -113,7 +114,8 @@ public:
     }
 
 private:
-    static constexpr Index kGap = 4;  // slots between domains: two lines, as processors fetch pairs of them
+    static constexpr std::size_t kStretch = 8;  // bodies side by side that one domain has, on average; less is mixed
+    static constexpr Index kGap = 4;            // slots between domains: two lines, as processors fetch pairs of them
     struct Item {
         Body at;
         Index group;  // bodies of one group are not parted
@@ -133,6 +135,7 @@ private:
     std::vector<Index> slots_;   // [bodies]
     std::vector<Index> bodies_;  // [slots]
     Slots ranges_[kNodes + 1];
+    bool mixed_ = false;  // are numbers of bodies of all domains mixed?
 };
 
 }  // namespace jet::physics

@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
 constexpr std::size_t kCellsPerPart = 8;
-constexpr std::size_t kFewMembers = 8;  // a class of no more has no cells
-constexpr std::size_t kFewMoved = 32;   // boxes: as long as no more have moved, the cells stay as they are
+constexpr std::size_t kSortedABlock = 256;  // parts
+constexpr std::size_t kFewMembers = 8;      // a class of no more has no cells
+constexpr std::size_t kFewMoved = 32;       // boxes: as long as no more have moved, the cells stay as they are
 
 }  // namespace
 
@@ -127,31 +128,50 @@ std::uint8_t PairSweep::classOf(const FatBox& box) const
     return static_cast<std::uint8_t>(which);
 }
 
-/// Which buckets there are: those of the tables, those of hashed cells, one of the last class, one of what is nowhere.
-void PairSweep::layOut()
+/// Which class each part is of, and how far the classes reach.
+void PairSweep::classify(Arena& arena, Pool& pool)
 {
-    for (Grid& grid : grids_) {
-        grid.kind = Grid::Kind::None, grid.members = 0;
-        grid.minX = grid.minY = 3e38F, grid.maxX = grid.maxY = -3e38F;
+    constexpr Extent kNothing{3e38F, 3e38F, -3e38F, -3e38F, 0};
+    const auto add = [](Extent& to, const Extent& more) {
+        to.minX = std::min(to.minX, more.minX), to.maxX = std::max(to.maxX, more.maxX);
+        to.minY = std::min(to.minY, more.minY), to.maxY = std::max(to.maxY, more.maxY);
+        to.members += more.members;
+    };
+    const std::size_t blocks = (parts() + kSortedABlock - 1) / kSortedABlock, mark = arena.mark();
+    const std::span<Extent> extents = arena.take<Extent>(blocks * kClasses);
+    std::fill(extents.begin(), extents.end(), kNothing);
+    pool.run(blocks, [&](std::size_t block) {
+        const auto last = static_cast<Index>(std::min(parts(), (block + 1) * kSortedABlock));
+        for (auto part = static_cast<Index>(block * kSortedABlock); part < last; ++part) {
+            const FatBox& box = boxes_[part];
+            if (moved_[part] != 0 || classes_[part] == kNoClass) classes_[part] = classOf(box);
+            if (classes_[part] != kAbsent)
+                add(extents[block * kClasses + classes_[part]], {box.minX, box.minY, box.minX, box.minY, 1});
+        }
+    });
+    for (int which = 0; which < kClasses; ++which) {
+        Extent& all = grids_[which].extent = kNothing;
+        for (std::size_t block = 0; block < blocks; ++block)
+            add(all, extents[block * kClasses + static_cast<std::size_t>(which)]);
     }
-    for (Index part = 0; part < boxes_.size(); ++part) {
-        const FatBox& box = boxes_[part];
-        if (moved_[part] != 0 || classes_[part] == kNoClass) classes_[part] = classOf(box);
-        if (classes_[part] == kAbsent) continue;
-        Grid& grid = grids_[classes_[part]];
-        ++grid.members;
-        grid.minX = std::min(grid.minX, box.minX), grid.maxX = std::max(grid.maxX, box.minX);
-        grid.minY = std::min(grid.minY, box.minY), grid.maxY = std::max(grid.maxY, box.minY);
-    }
+    arena.release(mark);
+}
+
+/// Which buckets there are: those of the tables, those of hashed cells, one of the last class, one of what is nowhere.
+void PairSweep::layOut(Arena& arena, Pool& pool)
+{
+    classify(arena, pool);
     hashed_ = 0;
     bool anyHashed = false;
-    for (int which = 0; which < kLast; ++which) {
+    for (int which = 0; which < kClasses; ++which) {
         Grid& grid = grids_[which];
-        if (grid.members <= kFewMembers) continue;
+        grid.kind = Grid::Kind::None;
+        if (which == kLast || grid.extent.members <= kFewMembers) continue;
+        const Extent& extent = grid.extent;
         grid.perRow = 1 / cellSize(which), grid.perColumn = kColumnsPerCell * grid.perRow;
-        const double rows = std::floor((static_cast<double>(grid.maxY) - grid.minY) * grid.perRow) + 1;
-        const double columns = std::floor((static_cast<double>(grid.maxX) - grid.minX) * grid.perColumn) + 1;
-        const std::size_t most = kCellsPerPart * grid.members + 64;
+        const double rows = std::floor((static_cast<double>(extent.maxY) - extent.minY) * grid.perRow) + 1;
+        const double columns = std::floor((static_cast<double>(extent.maxX) - extent.minX) * grid.perColumn) + 1;
+        const std::size_t most = kCellsPerPart * extent.members + 64;
         const bool table = rows * columns <= static_cast<double>(most);
         grid.kind = table ? Grid::Kind::Table : Grid::Kind::Hashed;
         anyHashed |= !table;
@@ -163,30 +183,34 @@ void PairSweep::layOut()
     begin_.assign(hashed_ + (anyHashed ? std::size_t{1} << (64 - shift_) : 0) + 3, Index{0});
 }
 
-/// By buckets, and by index within them: counted, then placed.
-void PairSweep::sort()
+std::size_t PairSweep::bucketOf(Index part) const
 {
-    layOut();
-    for (Index part = 0; part < boxes_.size(); ++part) {
-        const int which = classes_[part];
-        std::size_t bucket = which == kAbsent ? lastBucket() + 1 : lastBucket();
-        const Grid& grid = grids_[which == kAbsent ? kLast : which];
-        if (grid.kind == Grid::Kind::Table) {
-            bucket = grid.first + grid.row(boxes_[part].minY) * grid.columns + grid.column(boxes_[part].minX);
-        } else if (grid.kind == Grid::Kind::Hashed) {
-            bucket = hashOf(cellOf(part));
-        }
-        buckets_[part] = static_cast<Index>(bucket);
-        ++begin_[bucket];
-    }
+    const int which = classes_[part];
+    if (which == kAbsent) return lastBucket() + 1;
+    const Grid& grid = grids_[which];
+    if (grid.kind == Grid::Kind::Table)
+        return grid.first + grid.row(boxes_[part].minY) * grid.columns + grid.column(boxes_[part].minX);
+    return grid.kind == Grid::Kind::Hashed ? hashOf(cellOf(part)) : lastBucket();
+}
+
+/// By buckets, and by index within them: counted, then placed.
+void PairSweep::sort(Arena& arena, Pool& pool)
+{
+    layOut(arena, pool);
+    pool.ranges(parts(), kSortedABlock, [&](std::size_t first, std::size_t last) {
+        for (auto part = static_cast<Index>(first); part < last; ++part)
+            buckets_[part] = static_cast<Index>(bucketOf(part));
+    });
+    for (const Index bucket : buckets_) ++begin_[bucket];
     Index before = 0;
     for (Index& begin : begin_) begin = before += begin;  // where each ends
-    for (auto part = static_cast<Index>(boxes_.size()); part-- > 0;) {
-        const Index at = --begin_[buckets_[part]];
-        sorted_[at] = part;
-        sortedReaches_[at] = reaches_[part];
-        setSlot(at, part);
-    }
+    for (auto part = static_cast<Index>(boxes_.size()); part-- > 0;) sorted_[--begin_[buckets_[part]]] = part;
+    pool.ranges(parts(), kSortedABlock, [&](std::size_t first, std::size_t last) {
+        for (auto at = static_cast<Index>(first); at < last; ++at) {
+            sortedReaches_[at] = reaches_[sorted_[at]];
+            setSlot(at, sorted_[at]);
+        }
+    });
     filled_ = true;
 }
 
@@ -228,12 +252,12 @@ bool PairSweep::retouch()
     return true;
 }
 
-void PairSweep::begin(Arena& arena)
+void PairSweep::begin(Arena& arena, Pool& pool)
 {
     mark_ = arena.mark();
     then_.lay(arena.take<float>(Sides::roomFor(parts())));
     retouched_ = retouch();
-    if (!retouched_) sort();
+    if (!retouched_) sort(arena, pool);
 }
 
 void PairSweep::finish(Arena& arena)

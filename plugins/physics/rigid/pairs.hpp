@@ -4,6 +4,7 @@
 #pragma once
 
 #include "arena.hpp"
+#include "pool.hpp"
 #include "sift.hpp"
 
 #include <algorithm>
@@ -82,12 +83,13 @@ public:
     template <class Found>
     void sweep(Arena& arena, Found&& found)
     {
-        begin(arena);
+        Pool alone;
+        begin(arena, alone);
         seek(0, parts(), found);
         finish(arena);
     }
     /// A sweep: begin, seek all parts, finish; then nothing counts as moved.
-    void begin(Arena&);
+    void begin(Arena&, Pool&);
     /// Calls found(a, b) for each pair of boxes that meet, of which one was moved, and that did not meet before, if
     /// that one is of [first, last); different parts may be sought at once. Boxes of long parts meet before they do:
     /// their pairs come each time, even repeatedly.
@@ -128,24 +130,29 @@ private:
     static constexpr float kLonger = Sieve::kLonger;
     static constexpr FatBox kNowhere{3e38F, 3e38F, -3e38F, -3e38F};
 
+    /// Of a class, or of some of it.
+    struct Extent {
+        float minX, minY, maxX, maxY;  // of left upper corners
+        std::size_t members;
+    };
+
     /// The cells of a class: a table from its first row and column on, narrow columns one after the other, so that a
     /// part of a row is one stretch. Where what is in it lies too far apart, its cells are hashed instead. A class of
     /// few has none: it is looked through with the last.
     struct Grid {
         enum class Kind : std::uint8_t { None, Table, Hashed } kind = Kind::None;
-        float perRow = 0, perColumn = 0;               // 1 / units
-        float minX = 0, minY = 0, maxX = 0, maxY = 0;  // of left upper corners
+        float perRow = 0, perColumn = 0;  // 1 / units
+        Extent extent{};
         std::size_t rows = 0, columns = 0;
         std::size_t first = 0;  // bucket
-        std::size_t members = 0;
 
         static std::size_t line(float from, float perLine, std::size_t lines)
         {
             return static_cast<std::size_t>(
                 static_cast<std::int64_t>(std::min(std::max(from * perLine, 0.0F), static_cast<float>(lines - 1))));
         }
-        std::size_t row(float y) const { return line(y - minY, perRow, rows); }
-        std::size_t column(float x) const { return line(x - minX, perColumn, columns); }
+        std::size_t row(float y) const { return line(y - extent.minY, perRow, rows); }
+        std::size_t column(float x) const { return line(x - extent.minX, perColumn, columns); }
     };
 
     /// Most boxes with their room are less than two and a half of the typical length high and wide.
@@ -174,8 +181,10 @@ private:
     }
     std::size_t lastBucket() const { return begin_.size() - 3; }
     std::uint8_t classOf(const FatBox&) const;
-    void layOut();
-    void sort();
+    std::size_t bucketOf(Index part) const;
+    void classify(Arena&, Pool&);
+    void layOut(Arena&, Pool&);
+    void sort(Arena&, Pool&);
     bool retouch();
     std::size_t slotOf(Index part) const;
     void setSlot(std::size_t slot, Index part);

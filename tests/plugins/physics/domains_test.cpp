@@ -125,9 +125,8 @@ TEST(Domains, ANodeIsVisitedAfterThoseBelowIt)
     EXPECT_EQ(order, (std::vector<int>{4, 5, 2, 6, 7, 3, 1}));
 }
 
-TEST(Domains, EveryBodyIsVisitedOnceWhateverTheThreads)
+void expectOneVisitEach(const Domains& domains, int bodies)
 {
-    const Domains domains = divided(2, Grid(60, 30), 3000);
     for (const int threads : {1, 2, 3, 8}) {
         Pool pool;
         pool.setThreads(threads);
@@ -138,8 +137,21 @@ TEST(Domains, EveryBodyIsVisitedOnceWhateverTheThreads)
             all += count;
             EXPECT_LE(count, 1);
         }
-        EXPECT_EQ(all, 4800) << threads << " threads";
+        EXPECT_EQ(all, bodies) << threads << " threads";
     }
+}
+
+TEST(Domains, EveryBodyIsVisitedOnceWhateverTheThreads)
+{
+    expectOneVisitEach(divided(2, Grid(60, 30), 3000), 4800);
+    expectOneVisitEach(divided(0, Grid(60, 30), 3000), 4800);
+    Grid mixed(60, 30);
+    for (Index i = 0; i < mixed.bodies.size(); ++i) {
+        const Index at = i * 7 % 1800;
+        mixed.bodies[i].x = at % 60, mixed.bodies[i].y = at / 60;
+    }
+    mixed.links.clear();
+    expectOneVisitEach(divided(2, mixed, 3000), 4800);
 }
 
 // Worlds large enough to be divided. What happens in them, step by step, to worlds of several counts of threads.

@@ -111,6 +111,32 @@ TEST(Pairs, AGridThatIsSpreadTooFarFindsTheSame)
     EXPECT_EQ(sweep(pairs, arena), meeting(boxes));
 }
 
+TEST(Pairs, AreFoundInTheSameOrderByAnyCountOfThreads)
+{
+    std::vector<std::pair<Index, Index>> alone;
+    for (const int threads : {1, 2, 3}) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> at(0, 40), size(0.2, 3);
+        Pool pool;
+        pool.setThreads(threads);
+        PairSweep pairs;
+        Arena arena;
+        pairs.resize(1500, 1);
+        std::vector<std::pair<Index, Index>> found;
+        for (int round = 0; round < 3; ++round) {
+            begin(pairs, arena);
+            for (Index i = 0; i < pairs.parts(); ++i)
+                pairs.move(i, around(at(random), at(random), size(random), size(random)));
+            pairs.begin(arena, pool);
+            pairs.seek(0, pairs.parts(), [&](Index a, Index b) { found.emplace_back(a, b); });
+            pairs.finish(arena);
+        }
+        EXPECT_GT(found.size(), 10000U);
+        if (threads == 1) alone = found;
+        EXPECT_EQ(found, alone) << threads << " threads";
+    }
+}
+
 TEST(Pairs, OnlyWhatMeetsAPieceOfALongPartMeetsIt)
 {
     PairSweep pairs;
