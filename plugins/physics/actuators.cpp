@@ -183,6 +183,28 @@ void Actuators::addSpringForces(State& state)
     }
 }
 
+double Actuators::energy(const State& state, const Spring& spring, double h)
+{
+    if (sleeps(state, spring.a) || sleeps(state, spring.b)) return 0;
+    const Vec2 apart = spring.a.position(state) - spring.b.position(state);
+    const Vec2 before = apart - h * (spring.a.velocity(state) - spring.b.velocity(state));
+    return 0.5 * spring.stiffness * (apart.norm() - spring.restLength) * (before.norm() - spring.restLength);
+}
+
+double Actuators::energy(const State& state, const AngularSpring& spring, double h)
+{
+    if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return 0;
+    const auto strain = [&](double back) {
+        const auto at = [&](const AnchorPoint& anchor) {
+            return Vec2(anchor.position(state) - back * anchor.velocity(state));
+        };
+        const Vec2 middle = at(spring.centre);
+        const double angle = angleBetween(at(spring.a) - middle, at(spring.b) - middle);
+        return spring.angle + wrapped(angle - spring.angle) - spring.restAngle;
+    };
+    return 0.5 * spring.stiffness * strain(0) * strain(h);
+}
+
 void Actuators::apply(State& state, Spring& spring, double h)
 {
     if (!spring.alive || sleeps(state, spring.a) || sleeps(state, spring.b)) return;

@@ -44,6 +44,16 @@ public:
             visit(spring.a.body, spring.centre.body), visit(spring.centre.body, spring.b.body);
     }
 
+    /// What whole springs hold: visit(body, body, energy); ½ ks e e', e the strain now, e' before the last move over h.
+    template <class Visit>
+    void eachEnergy(const State& state, double h, Visit&& visit) const
+    {
+        for (const Spring& spring : springs_)
+            if (spring.alive != 0) visit(spring.a.body, spring.b.body, energy(state, spring, h));
+        for (const AngularSpring& spring : angularSprings_)
+            visit(spring.a.body != kNone ? spring.a.body : spring.centre.body, spring.b.body, energy(state, spring, h));
+    }
+
     void addTo(StiffnessBounds&, const State&) const;
     /// `plain`: stiffness and damping as they are.
     void prepare(const StiffnessBounds&, double h, bool plain = false);
@@ -86,6 +96,8 @@ private:
         Vec2 force;
     };
 
+    static double energy(const State&, const Spring&, double h);
+    static double energy(const State&, const AngularSpring&, double h);
     static void apply(State&, Spring&, double h);
     static void apply(State&, AngularSpring&, double h);
 

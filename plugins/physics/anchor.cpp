@@ -23,6 +23,7 @@ Vec2 AnchorPoint::position(const State& state) const
 
 Vec2 AnchorPoint::velocity(const State& state) const
 {
+    if (count == 0) return {0, 0};
     Vec2 sum(0, 0);
     const Vec2 lever = arm(state);
     for (int i = 0; i < count; ++i) sum += weight[i] * state.nodes.velocityAt(node[i], lever);

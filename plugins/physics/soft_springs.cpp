@@ -454,6 +454,40 @@ double SoftSprings::tension(const State& state, Index body, Index spring) const
     return stiffnessOf(mesh, spring) * (length - rest_[spring]) + dampingOf(mesh, spring) * speed;
 }
 
+double SoftSprings::energy(const State& state, Index body, double h) const
+{
+    const Mesh& mesh = meshes_[body];
+    const Nodes& nodes = state.nodes;
+    double twice = 0;
+    for (Index k = 0; k < mesh.springs.count; ++k) {
+        const Index i = mesh.springs.first + k;
+        if (!alive_[i]) continue;
+        const Vec2 apart = nodes.position[a_[i]] - nodes.position[b_[i]];
+        const Vec2 before = apart - h * (nodes.velocity[a_[i]] - nodes.velocity[b_[i]]);
+        const double ks =
+            mesh.wide ? static_cast<double>(batches_[mesh.batch].spring(batches_[mesh.batch].seat(mesh.lane, k)))
+                      : mesh.stiffness[k];
+        twice += ks * (apart.norm() - rest_[i]) * (before.norm() - rest_[i]);
+    }
+    double held = 0.5 * twice;
+    const Range& turning = state.bodies[body].soft->angularSprings;
+    for (Index i = turning.first; i < turning.end(); ++i) held += energy(state, angular_[i], h);
+    return held;
+}
+
+double SoftSprings::energy(const State& state, const Angular& spring, double h)
+{
+    const Nodes& nodes = state.nodes;
+    const auto strain = [&](double back) {
+        const auto arm = [&](Index end) {
+            return Vec2(nodes.position[end] - nodes.position[spring.centre] -
+                        back * (nodes.velocity[end] - nodes.velocity[spring.centre]));
+        };
+        return spring.angle + wrapped(angleBetween(arm(spring.a), arm(spring.b)) - spring.angle) - spring.restAngle;
+    };
+    return 0.5 * spring.stiffness * strain(0) * strain(h);
+}
+
 /// Bingham's body: elastic up to the yield, then the strain beyond it fades at the rate `creep`.
 void SoftSprings::flow(const State& state, double dt)
 {

@@ -42,6 +42,9 @@ public:
     void set(Index body, double ks, double kd, double tearRatio);
     /// What the spring pulls with as the nodes are, in single springs' own stiffness; 0 when torn.
     double tension(const State&, Index body, Index spring) const;
+    /// What the springs and angular springs of a soft body hold, torn ones nothing: ½ ks e e', e the strain now, e'
+    /// before the last move over h.
+    double energy(const State&, Index body, double h) const;
     /// Plasticity: lets springs that are strained beyond the yield of their body flow, over a step of dt.
     void flow(const State&, double dt);
 
@@ -157,6 +160,7 @@ private:
     void tear(Mesh&, Index spring);
     Index bodyOf(const soft::Batch&, Index lane) const;
     void applyAngularSpring(State&, Angular&, double h);
+    static double energy(const State&, const Angular&, double h);
 
     const soft::Kernels* kernels_ = &soft::bestKernels();
     std::vector<Index> a_, b_;  // nodes

@@ -8,6 +8,7 @@
 #include "queries.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
+#include "soft/accounts.hpp"
 #include "soft/contacts.hpp"
 #include "soft/joints.hpp"
 #include "soft/tears.hpp"
@@ -129,6 +130,7 @@ private:
 
     void prepareStiffness();
     void substep(double h, int index, int count);
+    soft::Accounts::Scene accounted(double h);
     /// Nothing but simple rigid bodies, and no spring between them: then the rigid stage does the whole step.
     bool onlySimple() const;
     void stepSimple(double dt);
@@ -170,6 +172,7 @@ private:
     ContactSet contacts_;
     soft::Contacts softContacts_;
     soft::Joints softJoints_;
+    soft::Accounts accounts_;
     std::vector<JointAt> jointsAt_;
     soft::Tears tears_;
     RigidStage rigid_;

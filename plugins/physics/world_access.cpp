@@ -194,6 +194,7 @@ void World::archive(Self& self, Archive& with)
     self.softContacts_.keep();
     self.softContacts_.archive(with);
     self.softJoints_.archive(with);
+    self.accounts_.archive(with);
     self.tears_.archive(with, self.state_);
     with.list(self.reports_, [&](Contact& c) {
         with(c.bodyA), with(c.bodyB), with(c.particle), with(c.wall), with(c.point), with(c.edgeParameter),

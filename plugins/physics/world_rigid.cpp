@@ -81,7 +81,8 @@ StepStats World::stats() const
     if (settings_.allowSleep) islands();
     StepStats stats = stats_;
     stats.memory = bytesOf(state_) + rigid_.bytes() + queries_.bytes() + softContacts_.bytes() + softJoints_.bytes() +
-                   tears_.bytes() + reports_.capacity() * sizeof(Contact) + islands_.capacity() * sizeof(Index);
+                   accounts_.bytes() + tears_.bytes() + reports_.capacity() * sizeof(Contact) +
+                   islands_.capacity() * sizeof(Index);
     return stats;
 }
 

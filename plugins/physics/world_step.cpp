@@ -125,8 +125,14 @@ void World::stepPart(double dt)
         }
         if (i == 0 && settings_.findCollisions) wakeBesideSoft();
         if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
+        if (!plain && i % soft::Accounts::kSubsteps == 0) {
+            accounts_.close(accounted(h));
+            accounts_.open(accounted(h));
+        }
         substep(h, i, count);
-        if (i + 1 == count) rigid_.finish(state_, true);
+        if (i + 1 < count) continue;
+        accounts_.close(accounted(h));
+        rigid_.finish(state_, true);
     }
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
@@ -158,10 +164,17 @@ void World::prepareStiffness()
     preparedFor_ = 0;
 }
 
+soft::Accounts::Scene World::accounted(double h)
+{
+    const Vec2 gravity = settings_.applyGravity ? settings_.gravity : Vec2(0, 0);
+    return {state_, softJoints_, actuators_, springs_, gravity, h};
+}
+
 void World::substep(double h, int index, int count)
 {
     const double gravity = settings_.applyGravity ? settings_.gravity.norm() : 0;
     softContacts_.refresh(state_, h, gravity);
+    const bool accounts = !plain_ && accounts_.any();
     {
         const Stopwatch watch(stats_.springsMs);
         // Before the forces: its damping must not take from what they give, or what bears a load would yield more.
@@ -172,21 +185,28 @@ void World::substep(double h, int index, int count)
         actuators_.addForces(state_);
         if (fields_.count() > 0)
             fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
+        if (accounts && pushed) accounts_.force(accounted(h));
+        if (accounts) accounts_.begin(state_);
         springs_.addForces(state_);
         if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
         integrateVelocities(state_, settings_, springs_, h, pushed);
         const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
+        if (accounts) accounts_.end(state_);
         soft::applyPressure(state_, h);
         if (index == 0 && !plain_)
             shapes_.look(state_, count * h, settings_.findCollisions ? finder_.closing() : std::span<const double>());
         if (!plain_) shapes_.apply(state_, springs_, h);
+        if (accounts) accounts_.begin(state_);
         if (!plain_) actuators_.applySprings(state_, h, backwards);
+        if (accounts) accounts_.end(state_);
         if (plain_) refuseExplosion();
     }
     const Stopwatch watch(stats_.solverMs);
     rigid_.push(state_);
+    if (accounts) accounts_.begin(state_);
     softJoints_.push(state_, h);
+    if (accounts) accounts_.end(state_);
     ContactSolver solver(state_, contacts_, h, gravity);
     solver.prepare();
     solver.solve();
@@ -194,7 +214,9 @@ void World::substep(double h, int index, int count)
     integratePositions(state_, springs_, h);
     moveKinematic(h);
     rigid_.relax(state_);
+    if (accounts) accounts_.begin(state_);
     softJoints_.relax(state_);
+    if (accounts) accounts_.end(state_);
     softContacts_.relax(state_);
     solver.relax();
     solver.finish();

@@ -42,6 +42,10 @@ struct Batch {
     void share();
     /// Stiffness of the spring in that seat; its damping follows 8 further on.
     float* spring(std::uint32_t seat) { return &kinds[std::size_t{kind[seat / kLanes]} * 2 * kLanes + seat % kLanes]; }
+    float spring(std::uint32_t seat) const
+    {
+        return kinds[std::size_t{kind[seat / kLanes]} * 2 * kLanes + seat % kLanes];
+    }
     /// The spring in that seat is no more.
     void cut(std::uint32_t seat);
     std::size_t bytes() const;

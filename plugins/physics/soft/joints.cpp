@@ -13,7 +13,11 @@ namespace {
 // As of the rigid solver: joints are stiffer than contacts, and chains of them carry forces far.
 constexpr double kHertz = 120, kHertzPerSubstepRate = 0.25, kDampingRatio = 2;
 constexpr int kPasses = 2;
-constexpr int kNearest = 6;  // particles that hold a point which is none
+// Errors beyond so many lengths of the body, or radians, are not pushed out at once: a patch that gives way is not
+// thrown.
+constexpr double kFarLengths = 0.03, kFarTurn = 0.06;
+constexpr double kTurn = 0.5;  // radians that a push turns a patch by at most
+constexpr int kNearest = 6;    // particles that hold a point which is none
 
 std::string nameOf(JointDef::Kind kind)
 {
@@ -94,6 +98,9 @@ Index Joints::add(const State& state, const JointDef& def)
     Joint& joint = held.joint;
     joint.def = def;
     joint.a = held.a.background() ? 0 : 1, joint.b = held.b.background() ? 0 : 2;
+    for (const Anchor* anchor : {&def.a, &def.b})
+        if (anchor->body != kNoHandle && !state.bodies[anchor->body].rigid)
+            held.far = std::max(held.far, kFarLengths * state.bodies[anchor->body].length);
     const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
     joint.restAngle = b.angle - a.angle;
     const double axisLength = def.axis.norm();
@@ -163,11 +170,10 @@ JointFrame Joints::frame(const Held& held, const Pose& a, const Pose& b)
     return f;
 }
 
-void Joints::solve(State& state, Held& held, bool push)
+/// The joint's rows, and the states of its ends, for substeps of h.
+void Joints::makeRows(const Held& held, const Pose& a, const Pose& b, double h)
 {
-    Joint& joint = held.joint;
-    const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
-    held.a.angle = a.angle, held.b.angle = b.angle;
+    const Joint& joint = held.joint;
     const JointFrame f = frame(held, a, b);
     ends_.assign(3, BodyState<double>{});
     for (const auto& [pose, end] : {std::pair(&a, &ends_[1]), std::pair(&b, &ends_[2])}) {
@@ -177,26 +183,52 @@ void Joints::solve(State& state, Held& held, bool push)
         end->spin = end->perGyration > 0 ? pose->omega / end->perGyration : 0;
     }
     rows_.clear();
-    joint.substep = h_;  // they have been scaled
-    addRows(joint, 0, f, ends_.data(), joint.a, joint.b, h_, rows_);
-    const Vec2 apart = f.pointB - f.pointA;
-    if (joint.hasPoint()) {
-        for (int axis = 0; axis < 2; ++axis) {
-            const Vec2 along = axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
-            JointRow<double> row;
-            row.a = joint.a, row.b = joint.b, row.slot = static_cast<Index>(axis);
-            const BodyState<double>&endA = ends_[joint.a], &endB = ends_[joint.b];
-            row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(f.armA, along) * endA.perGyration;
-            row.bx = along.x(), row.by = along.y(), row.angularB = cross(f.armB, along) * endB.perGyration;
-            const double give =
-                endA.invMass * (1 + row.angularA * row.angularA) + endB.invMass * (1 + row.angularB * row.angularB);
-            row.mass = give > 0 ? 1 / give : 0;
-            row.error = apart[axis];
-            row.impulse = joint.impulse[axis];
-            row.least = -1e30, row.most = 1e30;
-            rows_.push_back(row);
-        }
+    addRows(joint, 0, f, ends_.data(), joint.a, joint.b, h, rows_);
+    if (joint.hasPoint()) addPoint(joint, f);
+    for (JointRow<double>& row : rows_) {
+        const bool turns = row.ax == 0 && row.ay == 0 && row.bx == 0 && row.by == 0;
+        row.far = std::min(row.far, turns ? kFarTurn : held.far);
     }
+}
+
+void Joints::addPoint(const Joint& joint, const JointFrame& f)
+{
+    const Vec2 apart = f.pointB - f.pointA;
+    for (int axis = 0; axis < 2; ++axis) {
+        const Vec2 along = axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
+        JointRow<double> row;
+        row.a = joint.a, row.b = joint.b, row.slot = static_cast<Index>(axis);
+        const BodyState<double>&endA = ends_[joint.a], &endB = ends_[joint.b];
+        row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(f.armA, along) * endA.perGyration;
+        row.bx = along.x(), row.by = along.y(), row.angularB = cross(f.armB, along) * endB.perGyration;
+        const double give =
+            endA.invMass * (1 + row.angularA * row.angularA) + endB.invMass * (1 + row.angularB * row.angularB);
+        row.mass = give > 0 ? 1 / give : 0;
+        const double turn = row.mass * std::max(endA.invMass * endA.perGyration * std::abs(row.angularA),
+                                                endB.invMass * endB.perGyration * std::abs(row.angularB));
+        row.far = turn * 1e30 > kTurn ? kTurn / turn : 1e30;
+        row.error = apart[axis];
+        row.impulse = joint.impulse[axis];
+        row.least = -1e30, row.most = 1e30;
+        rows_.push_back(row);
+    }
+}
+
+double Joints::energy(const State& state, Held& held, double h)
+{
+    makeRows(held, poseOf(state, held.a), poseOf(state, held.b), h);
+    double sum = 0;
+    for (const JointRow<double>& row : rows_) sum += row.springEnergy(row.error);
+    return sum;
+}
+
+void Joints::solve(State& state, Held& held, bool push)
+{
+    Joint& joint = held.joint;
+    const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
+    held.a.angle = a.angle, held.b.angle = b.angle;
+    joint.substep = h_;  // they have been scaled
+    makeRows(held, a, b, h_);
     const Softness<double> standard = softnessOf(std::min(kHertz, kHertzPerSubstepRate / h_), kDampingRatio, h_);
     const auto energy = [&] { return kineticEnergy(ends_[1]) + kineticEnergy(ends_[2]); };
     if (push) held.work = held.stored = 0;

@@ -30,6 +30,38 @@ public:
     /// Warm-start impulses are of one substep: for others of another length.
     void scale(double ratio);
 
+    /// Calls visit(body, body, driven, pulley) for what acts; kNone: the background.
+    template <class Visit>
+    void eachHeld(const State& state, Visit&& visit) const
+    {
+        using Kind = JointDef::Kind;
+        for (const Held& held : joints_) {
+            const JointDef& def = held.joint.def;
+            if (!pulls(state, held)) continue;
+            visit(bodyOf(def.a), bodyOf(def.b), def.driven || def.kind == Kind::Motor || def.kind == Kind::Mouse,
+                  def.kind == Kind::Pulley);
+        }
+    }
+    /// What springs of their own hold: visit(body, body, energy).
+    template <class Visit>
+    void eachEnergy(const State& state, double h, Visit&& visit)
+    {
+        for (Held& held : joints_)
+            if (held.joint.def.hertz > 0 && pulls(state, held))
+                visit(bodyOf(held.joint.def.a), bodyOf(held.joint.def.b), energy(state, held, h));
+    }
+
+    /// Scales what the joints of such bodies start the next substep with.
+    template <class Holds>
+    void scale(double part, Holds&& holds)
+    {
+        for (Held& held : joints_) {
+            const JointDef& def = held.joint.def;
+            if (!holds(bodyOf(def.a)) && !holds(bodyOf(def.b))) continue;
+            for (double& impulse : held.joint.impulse) impulse *= part;
+        }
+    }
+
     JointState state(const State&, Index joint) const;
     void setMotor(Index joint, bool driven, double speed);
     /// All that liveDef() takes.
@@ -73,6 +105,7 @@ private:
     struct Held {
         Joint joint;  // a and b: 0 the background, else 1 and 2
         Hold a, b;
+        double far = 0;            // units: errors beyond are not pushed out at once
         Vec2 pushed = Vec2(0, 0);  // impulses on b in this step
         double turned = 0;
         double work = 0, stored = 0;  // of this substep: done on the ends; in springs at its start
@@ -85,6 +118,10 @@ private:
     static JointFrame frame(const Held&, const Pose& a, const Pose& b);
     bool settle(Held&, double dt);
     static bool pulls(const State&, const Held&);
+    static Index bodyOf(const Anchor& anchor) { return anchor.body == kNoHandle ? kNone : anchor.body; }
+    void addPoint(const Joint&, const JointFrame&);
+    void makeRows(const Held&, const Pose& a, const Pose& b, double h);
+    double energy(const State&, Held&, double h);
     void solve(State&, Held&, bool push);
     void takeGain(Held&);
 

@@ -285,6 +285,51 @@ TEST(NoExplosion, AHeavyBallSwingsOnALightChain)
     }
 }
 
+/// Plastic bodies of light and heavy particles, which joints hang up by a patch that gives way.
+TEST(NoExplosion, PlasticBodiesOfTenThousandfoldMassesGainNoEnergyFromJointsTheyHangOn)
+{
+    struct Case {
+        JointDef::Kind kind;
+        double ks, hertz, radius;
+        Vec2 at;
+    };
+    using Kind = JointDef::Kind;
+    const Case cases[] = {
+        // What they came to, in falls by the body's width, without an account of their energy:
+        {Kind::Prismatic, 300, 0, 12, {6, -8}},    // 2e7
+        {Kind::Prismatic, 1e4, 0, 12, {-11, 3}},   // 9e7
+        {Kind::Prismatic, 1e6, 10, 12, {-11, 3}},  // 6e7
+        {Kind::Prismatic, 1e6, 0, 20, {-11, 3}},   // 1e8
+        {Kind::Prismatic, 1e9, 0, 12, {-11, 3}},   // 197
+    };
+    for (const Case& c : cases) {
+        SoftBodyDef def = softBall({0, 0}, 20, c.ks, 1, 12, 2);
+        for (std::size_t i = 0; i < def.masses.size(); ++i) def.masses[i] *= i % 2 == 0 ? 1e4 : 1;
+        def.matter.yield = 0.01, def.matter.creep = 30, def.matter.mostFlow = 0.9;
+        auto world = makeWorld({0, 98.1});
+        world->addSoftBody(def);
+        JointDef joint;
+        joint.kind = c.kind, joint.hertz = c.hertz, joint.axis = {1, 0.2};
+        joint.a.point = joint.b.point = c.at;
+        joint.b.body = 0, joint.b.radius = c.radius;
+        world->addJoint(joint);
+        double weight = 0, start = 0, most = 0;
+        for (std::size_t i = 0; i < def.masses.size(); ++i)
+            weight += 98.1 * def.masses[i], start -= 98.1 * def.masses[i] * def.particles[i].y();
+        for (int i = 0; i < 600; ++i) {
+            const auto points = pointsOf(*world, 0);
+            const std::vector<Vec2> before(points.begin(), points.end());
+            world->step(1.0 / 60);
+            double energy = motionEnergy(*world, def, before, 1.0 / 60) - start;
+            for (std::size_t k = 0; k < def.masses.size(); ++k)
+                energy -= 98.1 * def.masses[k] * 0.5 * (before[k].y() + pointsOf(*world, 0)[k].y());
+            most = std::max(most, energy);
+        }
+        EXPECT_LT(most, weight * 40) << "joint " << static_cast<int>(c.kind) << ", ks " << c.ks << ", " << c.hertz
+                                     << " Hz, radius " << c.radius;
+    }
+}
+
 TEST(NoExplosion, JointsThatNoSubstepCanFollowKeepToTheGreatestSpeed)
 {
     // Hinges of a body of 0.016 units swing at 80 rad/s: nearly half a turn a substep of 1/30 s, and two do not agree.
