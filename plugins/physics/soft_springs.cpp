@@ -166,12 +166,13 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
     arrange(state);
     crush_ = plain ? 0 : kCrush * h;
     for (soft::Batch& batch : batches_) watchTears(batch), batch.part();
-    for (Mesh& mesh : meshes_) {
+    for (Index body = 0; body < meshes_.size(); ++body) {
+        Mesh& mesh = meshes_[body];
         stiffness_.resize(mesh.springs.count), damping_.resize(mesh.springs.count);
         for (Index i = 0; i < mesh.springs.count; ++i)
             stiffness_[i] = stiffnessOf(mesh, mesh.springs.first + i),
             damping_[i] = dampingOf(mesh, mesh.springs.first + i);
-        if (!plain) prepareMesh(state, bounds, mesh, h);
+        if (!plain) prepareMesh(state, bounds, mesh, state.bodies[body], h);
         fill(mesh);
     }
     for (soft::Batch& batch : batches_) batch.share();

@@ -140,7 +140,7 @@ private:
     bool isStable(const State&, const Mesh&, double h);
     void arrange(const State&);
     void watchTears(soft::Batch&);
-    void prepareMesh(const State&, const StiffnessBounds&, const Mesh&, double h);
+    void prepareMesh(const State&, const StiffnessBounds&, const Mesh&, const BodyRecord&, double h);
     void measureBias(const State&, Mesh&);
     void fill(Mesh&);
     void fillRests(const Mesh&);

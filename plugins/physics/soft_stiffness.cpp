@@ -138,7 +138,8 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
         addTo(bounds, state, mesh);
         mesh.fastestAtRest = weighed && isVast(mesh.nodes) ? fastestAtRest(bounds, state, mesh, body) : 0;
         const double rate = bounds.stableRate(mesh.nodes);
-        mesh.provenRate = weighed && rate <= kHighestRate ? provenRate(state, mesh, rate) : 0;
+        mesh.provenRate =
+            weighed && !state.bodies[body].hasTwin() && rate <= kHighestRate ? provenRate(state, mesh, rate) : 0;
         if (!weighed || rate <= kHighestRate) continue;
         bounds.reset(mesh.nodes);
         addTo(bounds, state, mesh);
@@ -151,12 +152,21 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
 }
 
 /// Turns stiffness and damping as they are into those a substep can bear.
-void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, const Mesh& mesh, double h)
+void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, const Mesh& mesh,
+                              const BodyRecord& body, double h)
 {
     const Nodes& nodes = state.nodes;
     const bool proven = mesh.provenRate > 0 && h * mesh.provenRate <= 1 + 1e-9;
-    const auto stable = [&](Index n) { return proven || h * h * bounds.elastic(n) + 2 * h * bounds.damping(n) <= 2; };
-    const auto share = [&](Index n) { return stable(n) ? 1.0 : bounds.share(n, h); };
+    // With a twin: see soft/twins.hpp.
+    const bool twin = body.hasTwin();
+    const double beside = twin ? h * h * body.soft->twinRate / 2 : 0, left = twin ? 1 - body.soft->twinLoss : 0;
+    const auto stable = [&](Index n) {
+        if (!twin) return proven || bounds.stable(n, h);
+        return h * h * bounds.elastic(n) + beside <= 1 + left * std::max(0.0, 1 - 2 * h * bounds.damping(n));
+    };
+    const auto share = [&](Index n) {
+        return stable(n) ? 1.0 : std::min(1.0, (1 - beside) / (h * h * bounds.elastic(n)));
+    };
     load_.assign(mesh.nodes.count, 0.0);
     for (Index k = 0; k < mesh.springs.count; ++k) {
         const Index a = a_[mesh.springs.first + k], b = b_[mesh.springs.first + k];
@@ -170,10 +180,11 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
         load_[a - mesh.nodes.first] += h * damping_[k] * nodes.invMass[a] * bounds.part(a, b);
         load_[b - mesh.nodes.first] += h * damping_[k] * nodes.invMass[b] * bounds.part(b, a);
     }
+    const double most = twin ? 0.5 : 1;  // see soft/twins.hpp
     for (Index k = 0; k < mesh.nodes.count; ++k) {
         const Index node = mesh.nodes.first + k;
         const double elastic = h * h * bounds.elastic(node);
-        const double room = 1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0));
+        const double room = std::min(1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0)), most);
         load_[k] = !proven && load_[k] > room ? room / load_[k] : 1;
     }
     for (Index k = 0; k < mesh.springs.count; ++k) {

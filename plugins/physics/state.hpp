@@ -90,10 +90,11 @@ struct SoftRecord {
     Range springs, angularSprings;  // into SoftSprings
     bool open = false;              // torn at its border, which lets gas out
     Index pieceCount = 1;
-    std::vector<Index> pieces;       // [particles] of a torn body; empty: whole
-    std::vector<Vec2> restArms;      // particles from the centre of mass at rest
-    Vec2 twinTurn = Vec2(1, 0);      // (cos, sin) of the twin's angle; stays while no angle fits better than others
-    double restGyrationSquared = 0;  // of the shape at rest, units²
+    std::vector<Index> pieces;          // [particles] of a torn body; empty: whole
+    std::vector<Vec2> restArms;         // particles from the centre of mass at rest
+    Vec2 twinTurn = Vec2(1, 0);         // (cos, sin) of the twin's angle; stays while no angle fits better than others
+    double twinRate = 0, twinLoss = 0;  // as soft/twins.hpp prepared them for the substep at hand
+    double restGyrationSquared = 0;     // of the shape at rest, units²
 };
 
 struct BodyRecord {
@@ -119,6 +120,8 @@ struct BodyRecord {
     /// Has it no points and walls, as nobody needs them?
     bool isLean() const { return single && points.count == 0; }
     double thickness() const { return soft ? soft->matter.thickness : 0; }
+    /// Is each of its particles sprung to its place in a rigid twin (soft/twins.hpp)?
+    bool hasTwin() const { return soft && !fixed && soft->matter.shapeStiffness > 0 && soft->restGyrationSquared > 0; }
     /// Does its border meet itself, or one of its pieces another?
     bool meetsOwn() const { return soft && (soft->matter.selfCollision || soft->pieceCount > 1); }
 };

@@ -80,6 +80,8 @@ public:
     }
     double elastic(Index node) const { return static_cast<double>(elastic_[node]); }
     double damping(Index node) const { return static_cast<double>(damping_[node]); }
+    /// May everything at this node act as it is at substep h?
+    bool stable(Index node, double h) const { return h * h * elastic(node) + 2 * h * damping(node) <= 2; }
     /// The part of the stiffness a spring at this node may keep at substep h.
     double share(Index node, double h) const
     {

@@ -78,7 +78,7 @@ void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
 {
     checks().check(handle, matter);
     SoftMatter& own = softBody(handle).soft->matter;
-    if (own.shapeStiffness != matter.shapeStiffness) rate_ = -1;
+    if (own.shapeStiffness != matter.shapeStiffness || own.shapeDamping != matter.shapeDamping) rate_ = -1;
     own = matter;
 }
 

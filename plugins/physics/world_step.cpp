@@ -90,6 +90,7 @@ void World::stepPart(double dt)
     const double h = dt / count;
     if (h != preparedFor_ || plain != plain_) {
         plain_ = plain;
+        soft::Twins::prepare(state_, h);
         springs_.prepare(state_, bounds_, h, plain);
         actuators_.prepare(bounds_, h, plain);
         preparedFor_ = h;
@@ -158,8 +159,7 @@ void World::prepareStiffness()
     for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
         const BodyRecord& body = state_.bodies[handle];
         const double stable = springs_.stableRate(bounds_, body, handle);
-        rate_ = std::max({rate_, stable, springs_.swingRate(bounds_, body, handle)});
-        if (!body.rigid) rate_ = std::max(rate_, soft::Twins::swingRate(body));
+        rate_ = std::max(rate_, soft::Twins::rate(body, std::max(stable, springs_.swingRate(bounds_, body, handle))));
     }
     preparedFor_ = 0;
 }

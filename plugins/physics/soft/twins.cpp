@@ -6,31 +6,40 @@ namespace jet::physics::soft {
 
 namespace {
 
-constexpr double kMostPhaseSquared = 0.5;  // (omega h)²
 constexpr double kPhase = 0.5;             // omega h that substeps are chosen for
-constexpr double kMostLoss = 0.7;          // of the velocities, in a substep
+constexpr double kMostPhaseSquared = 0.5;  // (omega h)²
+constexpr double kBeside = 1.5;            // times the substeps that the own springs need without it
 constexpr double kLeastFit = 0.2;          // of that at rest: a body turned inside out has one near 0
 
 /// omega² of the springs to the twin, 1 / s².
 double rateOf(const BodyRecord& body) { return body.soft->matter.shapeStiffness * body.nodes.count / body.soft->mass; }
 
+/// Of the velocities against it, 1 / s.
+double dampingOf(const BodyRecord& body) { return body.soft->matter.shapeDamping * body.nodes.count / body.soft->mass; }
+
 }  // namespace
 
-bool Twins::has(const BodyRecord& body, const SoftSprings& springs, BodyHandle handle)
+double Twins::rate(const BodyRecord& body, double own)
 {
-    return !body.rigid && body.soft->matter.shapeStiffness > 0 && body.soft->restGyrationSquared > 0 && !body.fixed &&
-           body.enabled && !springs.anyTorn(handle);
+    return body.hasTwin() ? std::max(kBeside * own, std::sqrt(rateOf(body)) / kPhase) : own;
 }
 
-double Twins::swingRate(const BodyRecord& body)
+void Twins::prepare(State& state, double h)
 {
-    return body.rigid || body.fixed ? 0 : std::sqrt(rateOf(body)) / kPhase;
+    for (BodyRecord& body : state.bodies) {
+        if (!body.hasTwin()) continue;
+        const double rate = rateOf(body);
+        body.soft->twinRate = std::min(rate, kMostPhaseSquared / (h * h));
+        body.soft->twinLoss = 1 - decay((dampingOf(body) + h * (rate - body.soft->twinRate)) * h);
+    }
 }
 
 void Twins::apply(State& state, const SoftSprings& springs, double h)
 {
-    for (BodyHandle handle = 0; handle < state.bodies.size(); ++handle)
-        if (has(state.bodies[handle], springs, handle)) apply(state, state.bodies[handle], h);
+    for (BodyHandle handle = 0; handle < state.bodies.size(); ++handle) {
+        BodyRecord& body = state.bodies[handle];
+        if (body.hasTwin() && body.enabled && !springs.anyTorn(handle)) apply(state, body, h);
+    }
 }
 
 void Twins::apply(State& state, BodyRecord& body, double h)
@@ -48,10 +57,7 @@ void Twins::apply(State& state, BodyRecord& body, double h)
     if (certain) own.twinTurn = Vec2(sums.along, sums.across) / fit;
     const CloudMotion motion{sums.x, sums.y, sums.vx, sums.vy, sums.omega(), own.twinTurn.x(), own.twinTurn.y()};
 
-    const double rate = rateOf(body), held = std::min(rate, kMostPhaseSquared / (h * h));
-    const double damping = own.matter.shapeDamping * count / own.mass + (rate - held) * h;
-    const double loss = std::min(1 - decay(damping * h), kMostLoss);
-    const CloudPulled pulled = kernels_->pull(cloud, motion, {0, h * held, loss}, change_[0].data());
+    const CloudPulled pulled = kernels_->pull(cloud, motion, {0, h * own.twinRate, own.twinLoss}, change_[0].data());
     if (!pulled.any) return;
 
     // Rounding, a turn that is not certain, and the damping of what rests in its place would push and turn the body.

@@ -6,9 +6,18 @@
 // inner ones that neither push nor turn the body, and what swings about its place does so at sqrt(ks / m), as between
 // the thesis's two bodies.
 //
-// Their rate is held to omega² h² <= 0.5, beside which what the body's own springs take (h² S <= 2) leaves symplectic
-// Euler stable for a loss of up to 0.75 of the velocities a substep: h² (S + omega²) <= 2 (2 - loss). Substeps are
-// chosen so that omega h <= 0.5 where that is possible; what a stiffer twin cannot give as force it takes as damping.
+// A substep damps by them before anything else acts, so that what hangs or bears a load yields by what the forces say:
+//
+//   v' = (1 - l) v - h r x,  then the body's own springs:  v" = v' - h M⁻¹ (K x + C v'),  x" = x + h v"
+//
+// for what is not a rigid motion; r = omega². The factors of an eigenvector solve z² - (1 + e - k) z + e = 0 with
+// e = (1 - l) (1 - d), d = h u·C u and k = h² u·K u + (1 - d) h² r. They lie in the unit circle iff 0 <= k <= 2 (1 +
+// e). So the own dampers of such a body are held to d <= 1; h² r is held to 1/2, and what is lost of it acts as
+// damping; and the own springs, of h² u·K u <= 2 h² S (stiffness.hpp), are softened to h² S = 1 - h² r / 2 unless
+//
+//   h² S + h² r / 2 <= 1 + (1 - l) (1 - 2 h D).
+//
+// Half as many substeps again as the own springs need without a twin, and omega h <= 1/2, keep that as a rule.
 #pragma once
 
 #include "soft_springs.hpp"
@@ -18,11 +27,11 @@ namespace jet::physics::soft {
 class Twins {
 public:
     void use(const CloudKernels& kernels) { kernels_ = &kernels; }
-    /// Has the body one? Those that tore do not, nor has what stands.
-    static bool has(const BodyRecord& body, const SoftSprings&, BodyHandle);
-    /// Substeps / s by which the body's twin swings in time; 0 without one.
-    static double swingRate(const BodyRecord& body);
-    /// Changes velocities by what the springs to all twins do in a substep of h seconds.
+    /// Substeps / s for a body whose springs alone need `own`.
+    static double rate(const BodyRecord& body, double own);
+    /// Takes what a substep of h seconds can bear, for apply() and for the own springs.
+    static void prepare(State&, double h);
+    /// Changes velocities by what the springs to all twins do in a substep of h seconds. Bodies that tore have none.
     void apply(State&, const SoftSprings&, double h);
 
 private:

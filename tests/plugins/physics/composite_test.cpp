@@ -211,6 +211,32 @@ TEST(Composite, NoStiffnessNoMassAndNoStepMakesItExplode)
     }
 }
 
+TEST(Composite, IsCalmWhateverItsOwnSpringsAndTheirDampersAre)
+{
+    // Stirred in free space; dampers at their bound and a twin at its own once threw each other.
+    for (const double own : {1.0, 1e4, 1e9}) {
+        for (const double kd : {1.0, 100.0}) {
+            for (const double stiff : {10.0, 1e3, 1e5, 1e7, 1e9}) {
+                for (const double spread : {1.0, 1e4}) {
+                    auto world = makeWorld({0, 0});
+                    SoftBodyDef def = softBall({0, 0}, kRadius, own, kd);
+                    for (std::size_t i = 0; i < def.masses.size(); i += 2) def.masses[i] *= spread;
+                    def.matter.shapeStiffness = stiff, def.matter.shapeDamping = 0.05 * spread;
+                    world->addSoftBody(def);
+                    deform(*world,
+                           [](const Vec2& p) { return Vec2(p + 3 * Vec2(std::sin(p.y()), std::sin(7 * p.x()))); });
+                    run(*world, 10);
+                    const double before = farthest(*world, def);
+                    EXPECT_LT(before, stiff >= 1e5 ? 0.2 : 5) << own << " " << kd << " " << stiff << " " << spread;
+                    world->step(kStep);
+                    EXPECT_NEAR(farthest(*world, def), before, 0.01)
+                        << own << " " << kd << " " << stiff << " " << spread;
+                }
+            }
+        }
+    }
+}
+
 TEST(Composite, APinnedParticleStaysAndTheOthersHangInTheirShape)
 {
     auto world = makeWorld({0, 98});
