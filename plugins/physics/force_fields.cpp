@@ -1,10 +1,13 @@
 #include "force_fields.hpp"
 
-#include "outline.hpp"
+#include "rigid/decompose.hpp"
+#include "surface.hpp"
 
 namespace jet::physics {
 
 namespace {
+
+constexpr int kLooks = 8;  // at a field on the way past its centre
 
 EdgeGrid gridOver(const std::vector<std::vector<Vec2>>& rings)
 {
@@ -29,17 +32,29 @@ double dragOver(double rate, double h) { return (1 - decay(rate * h)) / h; }
 
 }  // namespace
 
+ForceFields::Field::Field(const ForceFieldDef& is) : def(is), region(gridOver(is.region))
+{
+    const Pieces whole = decompose(def.region);
+    for (const auto& each : whole.pieces) {
+        Piece& piece = pieces.emplace_back();
+        for (const std::uint32_t corner : each.corners) {
+            piece.corners.push_back(whole.points[corner]);
+            piece.box.extend(piece.corners.back());
+        }
+    }
+}
+
 Index ForceFields::add(const ForceFieldDef& def)
 {
-    fields_.push_back({def, gridOver(def.region)});
+    fields_.emplace_back(def);
     return count() - 1;
 }
 
 void ForceFields::set(Index field, const ForceFieldDef& def)
 {
-    const auto kind = fields_[field].def.kind;
-    fields_[field] = {def, gridOver(def.region)};
-    fields_[field].def.kind = kind;
+    ForceFieldDef wanted = def;
+    wanted.kind = fields_[field].def.kind;
+    fields_[field] = Field(wanted);
 }
 
 bool ForceFields::isSet(Index field, const ForceFieldDef& def) const
@@ -51,48 +66,117 @@ bool ForceFields::isSet(Index field, const ForceFieldDef& def) const
 
 void ForceFields::restored()
 {
-    for (Field& field : fields_) field.region = gridOver(field.def.region);
+    for (Field& field : fields_) field = Field(ForceFieldDef(field.def));
+}
+
+double ForceFields::Field::slowing(double h) const
+{
+    if (def.kind == ForceFieldDef::Kind::Drag) return dragOver(def.strength, h);
+    return def.kind == ForceFieldDef::Kind::Buoyancy ? dragOver(def.drag, h) : 0;
 }
 
 Vec2 ForceFields::Field::acceleration(const Vec2& at, const Vec2& velocity, const Vec2& weight, double h) const
 {
-    const Vec2 arm = at - def.centre;
-    const double distance = arm.norm();
-    const Vec2 away = distance > 0 ? Vec2(arm / distance) : Vec2(0, 0);
     switch (def.kind) {
     case ForceFieldDef::Kind::Directional: return def.vector;
-    case ForceFieldDef::Kind::Radial: return def.strength * fading(distance, def.reach) * away;
-    case ForceFieldDef::Kind::Vortex: return def.strength * fading(distance, def.reach) * perpendicular(away);
-    case ForceFieldDef::Kind::Drag: return dragOver(def.strength, h) * (def.vector - velocity);
-    case ForceFieldDef::Kind::Buoyancy: return -def.strength * weight - dragOver(def.drag, h) * velocity;
+    case ForceFieldDef::Kind::Drag: return slowing(h) * (def.vector - velocity);
+    case ForceFieldDef::Kind::Buoyancy: return -def.strength * weight - slowing(h) * velocity;
+    case ForceFieldDef::Kind::Radial:
+    case ForceFieldDef::Kind::Vortex: break;
     }
-    return Vec2(0, 0);
+    // What passes the centre within the step is drawn to and fro there: the mean over its way, else it gains energy.
+    const bool passes = velocity.norm() * h > (at - def.centre).norm() / 4;
+    const int looks = passes ? kLooks : 1;
+    Vec2 sum(0, 0);
+    for (int i = 0; i < looks; ++i) {
+        const Vec2 arm = at + (passes ? (i + 0.5) * h / looks : 0) * velocity - def.centre;
+        const double distance = arm.norm();
+        if (distance > 0) sum += fading(distance, def.reach) / (looks * distance) * arm;
+    }
+    return def.strength * (def.kind == ForceFieldDef::Kind::Radial ? sum : perpendicular(sum));
+}
+
+/// Of a field on a body.
+struct ForceFields::Pull {
+    State& state;
+    const Field& field;
+    const BodyRecord& body;
+    Vec2 weight;
+    double h = 0;
+
+    /// At a point that moves with the node; `moment`: mass units², about that point.
+    void at(Index node, const Vec2& place, double mass, double moment = 0) const
+    {
+        Nodes& nodes = state.nodes;
+        const Vec2 lever = place - nodes.position[node];
+        const Vec2 force = mass * field.acceleration(place, nodes.velocityAt(node, lever), weight, h);
+        nodes.force[node] += force;
+        nodes.torque[node] += cross(lever, force);
+        if (moment > 0) nodes.torque[node] -= field.slowing(h) * moment * nodes.omega[node];
+    }
+    void atIfCovered(Index node, const Vec2& place, double mass) const
+    {
+        if (field.covers(place)) at(node, place, mass);
+    }
+    /// On a convex surface of mass / units².
+    void on(const Surface& surface, double density) const
+    {
+        const Index node = body.nodes.first;
+        const Moments m = momentsOf(surface);
+        if (!(m.area > 0)) return;
+        if (field.isLinear()) return at(node, m.centroid, density * m.area, density * m.second);
+        // Three points of each triangle about the middle: exact for what is quadratic.
+        for (int i = 0; i < surface.count; ++i) {
+            const Vec2 &a = surface.points[static_cast<std::size_t>(i)],
+                       &b = surface.points[static_cast<std::size_t>((i + 1) % surface.count)];
+            const double mass = density * std::abs(cross(a - m.centroid, b - m.centroid)) / 6;
+            for (const Vec2& middle : {Vec2(0.5 * (a + b)), Vec2(0.5 * (b + m.centroid)), Vec2(0.5 * (m.centroid + a))})
+                at(node, middle, mass);
+        }
+    }
+};
+
+void ForceFields::actOnSurface(Pull& pull, std::span<const Part> parts)
+{
+    const Index node = pull.body.nodes.first;
+    const Vec2 centre = pull.state.nodes.position[node], turn = pull.state.nodes.rotation[node];
+    double area = 0;
+    for (const Part& part : parts) area += momentsOf(surfaceOf(part, Vec2(0, 0), Vec2(1, 0))).area;
+    if (!(area > 0)) return pull.atIfCovered(node, centre, pull.state.massOf(pull.body));
+    const double density = pull.state.massOf(pull.body) / area;
+    for (const Part& part : parts) {
+        const Surface surface = surfaceOf(part, centre, turn);
+        if (pull.field.def.region.empty()) {
+            pull.on(surface, density);
+            continue;
+        }
+        const Box box = boxOf(surface);
+        for (const Piece& piece : pull.field.pieces) {
+            if (!piece.box.intersects(box)) continue;
+            const Surface inside = clipped(surface, piece.corners);
+            if (inside.count > 2) pull.on(inside, density);
+        }
+    }
 }
 
 void ForceFields::act(State& state, const RigidStage& rigid, const Field& field, Index handle, const Vec2& weight,
                       double h)
 {
     const BodyRecord& body = state.bodies[handle];
-    Nodes& nodes = state.nodes;
-    const auto pull = [&](Index node, const Vec2& at, double mass) {
-        if (!field.covers(at)) return;
-        const Vec2 lever = at - nodes.position[node];
-        const Vec2 force = mass * field.acceleration(at, nodes.velocityAt(node, lever), weight, h);
-        nodes.force[node] += force;
-        nodes.torque[node] += cross(lever, force);
-    };
+    const Nodes& nodes = state.nodes;
+    Pull pull{state, field, body, weight, h};
+    const Index first = body.nodes.first;
     if (!body.rigid) {
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) pull(n, nodes.position[n], nodes.mass[n]);
-    } else if (body.isLean()) {
-        const Vec2 centre = nodes.position[body.nodes.first], turn = nodes.rotation[body.nodes.first];
-        const PartRing ring = ringOf(rigid.onlyPart(handle));
-        for (Index i = 0; i < ring.count; ++i)
-            pull(body.nodes.first, centre + rotated(turn, ring.points[i]), state.massOf(body) / ring.count);
+        for (Index n = first; n < body.nodes.end(); ++n) pull.atIfCovered(n, nodes.position[n], nodes.mass[n]);
+    } else if (body.asleep || nodes.invMass[first] == 0) {
+        return;
+    } else if (rigid.has(handle)) {
+        actOnSurface(pull, rigid.convexPartsOf(handle));
     } else if (body.points.count == 0) {
-        pull(body.nodes.first, nodes.position[body.nodes.first], state.massOf(body));
+        pull.atIfCovered(first, nodes.position[first], state.massOf(body));
     } else {
         for (Index p = body.points.first; p < body.points.end(); ++p)
-            pull(body.nodes.first, state.pointNow(p), state.massOf(body) / body.points.count);
+            pull.atIfCovered(first, state.pointNow(p), state.massOf(body) / body.points.count);
     }
 }
 

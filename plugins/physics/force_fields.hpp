@@ -1,7 +1,8 @@
 // Fields of force over regions of the scene (thesis §2.4.1: "pole siłowe"; SPEC PH7).
 //
-// A field acts on each particle of a soft body that is inside its region, and on a rigid body at its border points,
-// each of which carries an equal part of its mass: a body half inside feels half the field, and is turned by it.
+// A field acts on each particle of a soft body that is inside its region, and on the part of a rigid body's area that
+// is inside, each with its part of the mass: what floats sinks in until it displaces its weight, and a jet narrower
+// than a body lifts it. Bodies without convex parts feel it at their border points.
 #pragma once
 
 #include "edge_grid.hpp"
@@ -34,14 +35,32 @@ public:
     void restored();
 
 private:
+    /// Convex, of the region.
+    struct Piece {
+        Box box;
+        std::vector<Vec2> corners;
+    };
     struct Field {
+        explicit Field(const ForceFieldDef&);
+
         ForceFieldDef def;
         EdgeGrid region;
+        std::vector<Piece> pieces;
+
+        /// Does what it does to a surface follow from its area, centroid and moment?
+        bool isLinear() const
+        {
+            return def.kind != ForceFieldDef::Kind::Radial && def.kind != ForceFieldDef::Kind::Vortex;
+        }
+        /// 1/s by which it slows what turns.
+        double slowing(double h) const;
 
         bool covers(const Vec2& at) const { return def.region.empty() || region.inside(at); }
         Vec2 acceleration(const Vec2& at, const Vec2& velocity, const Vec2& weight, double h) const;
     };
+    struct Pull;
     static void act(State&, const RigidStage&, const Field&, Index body, const Vec2& weight, double h);
+    static void actOnSurface(Pull&, std::span<const Part>);
 
     std::vector<Field> fields_;
 };

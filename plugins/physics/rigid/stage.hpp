@@ -26,6 +26,11 @@ public:
     double gyrationOf(Index handle) const { return collider_.bodies()[bodyOf(handle)].gyration; }
     /// Of a body that has no other.
     const Part& onlyPart(Index handle) const { return collider_.parts()[collider_.bodies()[bodyOf(handle)].firstPart]; }
+    std::span<const Part> convexPartsOf(Index handle) const
+    {
+        const RigidBody& body = collider_.bodies()[bodyOf(handle)];
+        return std::span(collider_.parts()).subspan(body.firstPart, body.partCount);
+    }
     bool has(Index handle) const { return bodyOf(handle) != 0; }
     std::size_t count() const { return collider_.bodies().size() - 1; }
     bool empty() const { return count() == 0; }

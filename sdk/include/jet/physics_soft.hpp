@@ -19,8 +19,8 @@ struct SoftMatter {
     /// Force / unit, >= 0: pressure that resists a change of its area, times the relative change.
     double areaStiffness = 0;
     /// Force / unit, >= 0: ks of the springs that draw each particle to its place in an invisible rigid twin, which has
-    /// the shape of the definition, meets nothing, weighs nothing and lies as the body does as a whole (thesis §2.4.3.6).
-    /// Of a particle of mean mass; on others it is in proportion to their mass. 0: there is no twin.
+    /// the shape of the definition, meets nothing, weighs nothing and lies as the body does as a whole (thesis
+    /// §2.4.3.6). Of a particle of mean mass; on others it is in proportion to their mass. 0: there is no twin.
     double shapeStiffness = 0;
     /// Force / (unit / s), >= 0: kd of these springs.
     double shapeDamping = 0.1;
@@ -34,7 +34,7 @@ struct SoftMatter {
     bool selfCollision = false;
 };
 
-/// A field of force on all bodies whose particles (soft) or border points (rigid) are in its region.
+/// A field of force on all particles (soft bodies) and on the area (rigid ones) that is in its region.
 struct ForceFieldDef {
     enum class Kind : std::uint8_t {
         Directional,  ///< accelerates by `vector`, units / s²
