@@ -3,6 +3,7 @@
 #include "border.hpp"
 
 #include <chrono>
+#include <limits>
 
 namespace jet::physics {
 
@@ -14,6 +15,8 @@ constexpr double kStrayLengths = 0.02, kStrayOfMotion = 0.1;
 // Hits faster than this many lengths of the smaller body a step are looked ahead for, through chains of so many bodies.
 constexpr double kHitLengths = 0.25;
 constexpr int kHitRounds = 3;
+// One-sided platforms: cosine of the greatest angle from which they hold; slops behind one that has not come over it.
+constexpr double kHolds = 0.5, kBehindSlops = 8;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -43,6 +46,62 @@ ContactPoint patternOf(const BodyRecord& a, const BodyRecord& b, const WorldSett
     pattern.resolve = settings.resolveCollisions && !a.sensor && !b.sensor;
     return pattern;
 }
+
+/// The walls of a platform that hold.
+class PlatformSide {
+public:
+    PlatformSide(const State& state, Index platform, const Vec2& side)
+        : state_(state), walls_(state.bodies[platform].walls), side_(side)
+    {
+    }
+
+    /// Unit, out of the wall's body.
+    Vec2 outward(Index wall) const
+    {
+        const Vec2 edge = state_.points.position[state_.walls.second[wall]] - start(wall);
+        const double length = edge.norm();
+        return length > 0 ? Vec2(perpendicular(edge) * (state_.walls.outward[wall] / length)) : Vec2(0, 0);
+    }
+    bool faces(const Vec2& outward) const { return outward.dot(side_) >= kHolds; }
+    bool holds(Index wall) const { return faces(outward(wall)); }
+
+    struct Seen {
+        Index wall;
+        double separation = 0;
+    };
+    /// The nearest holding wall beside which the point is; else `usual`, with nothing between.
+    Seen nearest(Index point, Index usual) const
+    {
+        Seen seen{usual};
+        double least = std::numeric_limits<double>::infinity();
+        const Vec2& at = state_.points.position[point];
+        for (Index wall = walls_.first; wall < walls_.end(); ++wall) {
+            const Vec2 normal = outward(wall), offset = at - start(wall);
+            if (!faces(normal)) continue;
+            const Vec2 edge = state_.points.position[state_.walls.second[wall]] - start(wall);
+            const double along = offset.dot(edge), separation = offset.dot(normal);
+            if (along < 0 || along > edge.squaredNorm() || std::abs(separation) >= least) continue;
+            least = std::abs(separation);
+            seen = {wall, separation};
+        }
+        return seen;
+    }
+    /// Is a point of the body farther behind the wall nearest to it?
+    bool anyBehind(Index body, double depth) const
+    {
+        const Range& points = state_.bodies[body].points;
+        for (Index p = points.first; p < points.end(); ++p)
+            if (state_.points.collidable[p] && nearest(p, kNone).separation < -depth) return true;
+        return false;
+    }
+
+private:
+    const Vec2& start(Index wall) const { return state_.points.position[state_.walls.first[wall]]; }
+
+    const State& state_;
+    const Range walls_;
+    const Vec2 side_;
+};
 
 }  // namespace
 
@@ -179,8 +238,12 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
             if (a.soft->matter.selfCollision) narrow.collideSelf(pair.a, pattern, contacts);
             continue;
         }
+        const std::size_t first = contacts.size();
         narrow.collide(pair.a, pair.b, pattern, contacts);
         narrow.collide(pair.b, pair.a, pattern, contacts);
+        if (!pattern.resolve) continue;
+        decideSide(state, pair.a, pair.b, previous, first, contacts);
+        decideSide(state, pair.b, pair.a, previous, first, contacts);
     }
     // A point inside may have been found twice at one wall: once at its front, once to be pushed out; the latter
     // counts.
@@ -190,6 +253,34 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
     contacts.erase(std::unique(contacts.begin(), contacts.end(),
                                [](const ContactPoint& p, const ContactPoint& q) { return p.key() == q.key(); }),
                    contacts.end());
+}
+
+/// What a one-sided platform is to the other body: contacts from `first` on that do not hold it are dropped. It holds
+/// what comes against its direction, within 60°. What it does not hold, and has a point behind such a wall of it, comes
+/// from behind or beside, and passes until none is.
+void ContactFinder::decideSide(const State& state, Index platform, Index other, std::span<const ContactPoint> previous,
+                               std::size_t first, std::vector<ContactPoint>& contacts)
+{
+    const Filter filter = state.filters[platform];
+    if (!filter.isOneSided() || first == contacts.size()) return;
+    const PlatformSide side(state, platform, filter.side());
+    const auto pushes = [&](const ContactPoint& c) {
+        return std::minmax(c.bodyA, c.bodyB) == std::minmax(platform, other) &&
+               (c.normalImpulse > 0 || c.stepImpulse > 0);
+    };
+    const bool held = std::any_of(previous.begin(), previous.end(), pushes);
+    const auto from = contacts.begin() + static_cast<std::ptrdiff_t>(first);
+    if (!held && side.anyBehind(other, kBehindSlops * from->slop)) {
+        contacts.erase(from, contacts.end());
+        return;
+    }
+    // Inside a thin platform the nearest way out is behind it.
+    for (auto c = from; c != contacts.end(); ++c)
+        if (c->inside && c->bodyB == platform && !side.holds(c->wall)) c->wall = side.nearest(c->point, c->wall).wall;
+    const auto wrong = [&](const ContactPoint& c) {
+        return c.bodyB == platform ? !side.holds(c.wall) : !side.faces(-side.outward(c.wall));
+    };
+    contacts.erase(std::remove_if(from, contacts.end(), wrong), contacts.end());
 }
 
 /// Impulses go to the same point at the same wall, else, where a point slid on, at the neighbouring wall.

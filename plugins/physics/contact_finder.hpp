@@ -43,6 +43,8 @@ private:
     void predictBody(const State&, Index body, const WorldSettings&, double dt, Motion&, double& budget) const;
     void collidePairs(const State&, const WorldSettings&, double dt, std::span<const ContactPoint> previous,
                       std::vector<ContactPoint>& contacts);
+    static void decideSide(const State&, Index platform, Index other, std::span<const ContactPoint> previous,
+                           std::size_t first, std::vector<ContactPoint>& contacts);
     static void carryOver(const State&, std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts);
 
     const soft::CloudKernels* clouds_ = &soft::sse2::clouds;

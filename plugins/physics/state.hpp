@@ -126,9 +126,19 @@ struct BodyRecord {
     bool meetsOwn() const { return soft && (soft->matter.selfCollision || soft->pieceCount > 1); }
 };
 
-/// Whom a body meets, beside its layer.
+/// Whom a body meets, beside its layer, and from which side.
 struct Filter {
     std::uint32_t mask = ~0U, group = 0;
+    double sideX = 0, sideY = 0;  // unit, out of a one-sided platform; null: from all
+
+    static Filter of(const BodyCommon& common, bool rigid)
+    {
+        const double length = rigid ? common.oneSided.norm() : 0;
+        if (!(length > 0)) return {common.mask, common.group};
+        return {common.mask, common.group, common.oneSided.x() / length, common.oneSided.y() / length};
+    }
+    Vec2 side() const { return {sideX, sideY}; }
+    bool isOneSided() const { return sideX != 0 || sideY != 0; }
     friend bool operator==(const Filter&, const Filter&) = default;
 };
 

@@ -33,7 +33,7 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     body.drives = body.kinematic = rigid && common.kinematic && !common.fixed;
     body.fixedRotation = common.fixedRotation;
     body.layer = common.layer;
-    state_.setFilter(static_cast<Index>(state_.bodies.size()), {common.mask, common.group});
+    state_.setFilter(static_cast<Index>(state_.bodies.size()), Filter::of(common, rigid));
     body.nodes.first = static_cast<Index>(state_.nodes.size());
     body.points.first = static_cast<Index>(state_.points.size());
     body.walls.first = static_cast<Index>(state_.walls.size());

@@ -164,7 +164,7 @@ void World::archive(Self& self, Archive& with)
         BodyRecord& body = self.state_.bodies[handle];
         with(body.material), with(body.gravityScale), with(body.layer);
         Filter filter = std::as_const(self.state_.filters)[handle];
-        with(filter.mask), with(filter.group);
+        with(filter.mask), with(filter.group), with(filter.sideX), with(filter.sideY);
         self.state_.setFilter(handle, filter);
         const auto flag = [&with](auto get, auto set) {
             std::uint8_t value = get();

@@ -73,14 +73,14 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
                             " cannot become fixed or free while the world runs; " +
                             (body.rigid ? "make it kinematic" : "pin its particles") + " instead."));
     if (body.material == common.material && body.gravityScale == common.gravityScale && body.sensor == common.sensor &&
-        body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter{common.mask, common.group} &&
+        body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter::of(common, body.rigid) &&
         body.drives == (body.rigid && common.kinematic && !common.fixed) &&
         body.fixedRotation == common.fixedRotation && rigid_.isSet(handle, common))
         return;
     reportIfAsked();  // of what it was
     body.material = common.material, body.gravityScale = common.gravityScale;
     body.sensor = common.sensor, body.layer = common.layer;
-    state_.setFilter(handle, {common.mask, common.group});
+    state_.setFilter(handle, Filter::of(common, body.rigid));
     if (body.rigid) {
         body.drives = common.kinematic && !common.fixed, body.fixedRotation = common.fixedRotation;
         rigid_.stir(state_, handle);
