@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace jet::physics::soft {
 
@@ -50,24 +51,26 @@ void Accounts::gather(const Scene& scene)
         if (marks_[body] != 0) marks_[rootOf(group_, body)] |= marks_[body];
     for (Index body = 0; body < count; ++body) {
         const Index root = rootOf(group_, body);
-        if ((marks_[root] & kHeld) == 0 || (marks_[root] & kDriven) != 0 || root != body) continue;
-        Net net;
-        net.body = body, net.first = static_cast<Index>(bodies_.size());
-        net.anchored = (marks_[root] & kAnchored) != 0;
-        Index particles = 0;
-        for (Index k = body; k < count; ++k)
-            if (rootOf(group_, k) == root) {
-                bodies_.push_back(k);
-                if (!state.bodies[k].rigid) particles += state.bodies[k].nodes.count;
-            }
-        net.end = static_cast<Index>(bodies_.size());
-        if (particles == 0 || particles > kMostParticles) {
-            bodies_.resize(net.first);
-            continue;
+        if ((marks_[root] & kHeld) == 0 || (marks_[root] & kDriven) != 0) continue;
+        if (netAt_[root] == kNone) {
+            netAt_[root] = static_cast<Index>(nets_.size());
+            Net& net = nets_.emplace_back();
+            net.body = root, net.anchored = (marks_[root] & kAnchored) != 0;
         }
-        for (Index i = net.first; i < net.end; ++i) netAt_[bodies_[i]] = static_cast<Index>(nets_.size());
-        nets_.push_back(net);
+        netAt_[body] = netAt_[root];
+        Net& net = nets_[netAt_[body]];
+        ++net.end;
+        if (!state.bodies[body].rigid) net.particles += state.bodies[body].nodes.count;
     }
+    Index kept = 0, first = 0;
+    for (Net& net : nets_) net.first = net.particles > 0 && net.particles <= kMostParticles ? kept++ : kNone;
+    for (Index& net : netAt_)
+        if (net != kNone) net = nets_[net].first;
+    std::erase_if(nets_, [](const Net& net) { return net.first == kNone; });
+    for (Net& net : nets_) first += std::exchange(net.end, net.first = first);
+    bodies_.resize(first);
+    for (Index body = 0; body < count; ++body)
+        if (netAt_[body] != kNone) bodies_[nets_[netAt_[body]].end++] = body;
 }
 
 /// visit(node, mass, inertia) for what of a net may move.

@@ -63,6 +63,7 @@ private:
     struct Net {
         Index body = 0;                   // its first
         Index first = 0, end = 0;         // its bodies
+        Index particles = 0;              // of its soft bodies
         bool anchored = false;            // to what does not move, or moves by itself
         double gained = 0;                // kinetic, of what is to give none; less what forces gave and springs held
         double held = 0, heldBefore = 0;  // by springs, and as weight: now; when it was opened
