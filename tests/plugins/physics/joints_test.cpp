@@ -376,6 +376,32 @@ TEST(Joints, AJointBreaksAboveItsForce)
     EXPECT_LT(world->bodies().position[held].y(), 21);
 }
 
+TEST(Joints, EachKindBreaksExactlyAboveItsForce)
+{
+    // A weight of 200 that rests in the joint from the start: a thousandth more is borne, a thousandth less is not.
+    using Kind = JointDef::Kind;
+    for (const Kind kind : {Kind::Revolute, Kind::Prismatic, Kind::Weld, Kind::Distance, Kind::Rope, Kind::Wheel,
+                            Kind::Motor, Kind::Pulley}) {
+        for (const double part : {0.999, 1.001}) {
+            auto world = makeWorld({0, 100});
+            const BodyHandle body = world->addRigidBody(simple(box({0, 0}, 20, 20, 2)));
+            JointDef def = between(kind, kNoHandle, {0, 0}, body, {0, 0});
+            if (kind == Kind::Distance || kind == Kind::Rope) def.a.point = {0, -50};
+            if (kind == Kind::Motor) def.driven = true, def.maxForce = def.maxTorque = 1e6;
+            if (kind == Kind::Pulley) {
+                def.a = {world->addRigidBody(simple(box({100, 0}, 20, 20, 2))), {100, 0}};
+                def.groundA = {100, -60}, def.groundB = {0, -60};
+            }
+            def.breakForce = part * 200;
+            const JointHandle joint = world->addJoint(def);
+            run(*world, 3);
+            EXPECT_EQ(world->joint(joint).broken, part < 1) << static_cast<int>(kind) << " " << part;
+            EXPECT_NEAR(world->joint(joint).force.norm(), part < 1 ? 0 : 200, 0.02) << static_cast<int>(kind);
+            EXPECT_EQ(world->bodies().position[body].y() > 100, part < 1) << static_cast<int>(kind);
+        }
+    }
+}
+
 TEST(Joints, TwoBodiesThatCannotMoveAreNoTrouble)
 {
     auto world = makeWorld({0, 100});
