@@ -23,7 +23,10 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool meetsItself(const BodyRecord& body) { return body.meetsOwn() && !body.fixed && body.enabled; }
+bool meetsItself(const BodyRecord& body)
+{
+    return body.meetsOwn() && !body.fixed && body.enabled && body.walls.count > 0;
+}
 
 /// In the midst of a step.
 void readAgain(State& state)
@@ -152,9 +155,11 @@ void ContactFinder::readBorders(State& state)
     };
     const auto read = [&](Index handle, Index other) {
         BodyRecord& body = state.bodies[handle];
-        if (body.rigid || body.walls.count == 0) return;
+        if (body.rigid) return;
+        // Also where the border tore away: its points have no normals any more.
         if ((read_[handle] & kCorners) == 0) updateCorners(state, body);
-        if ((read_[handle] & kGrid) == 0 && comesNear(handle, other)) rebuildGrid(state, body), read_[handle] |= kGrid;
+        if (body.walls.count > 0 && (read_[handle] & kGrid) == 0 && comesNear(handle, other))
+            rebuildGrid(state, body), read_[handle] |= kGrid;
         read_[handle] |= kCorners;
     };
     for (const BodyPair& pair : pairs_) read(pair.a, pair.b), read(pair.b, pair.a);

@@ -174,6 +174,38 @@ TEST(Tears, SnapshotsFromBeforeAndAfterATearHaveTheSameFuture)
     EXPECT_EQ(world->borders(0), borders);
 }
 
+TEST(Tears, WhatFellToDustHasNoBorderToMeetItselfBy)
+{
+    // Walls, their grid and the normals of points that are no more must not be met, nor depend on when it tore.
+    SoftBodyDef def;  // a U whose legs face each other
+    def.particles = {{0, 0}, {20, 0}, {20, 40}, {22, 40}, {22, 0}, {42, 0}, {42, 60}, {0, 60}};
+    def.masses.assign(8, 1);
+    def.borders = {{0, 1, 2, 3, 4, 5, 6, 7}};
+    for (std::uint32_t i = 0; i < 8; ++i)
+        for (std::uint32_t k = i + 1; k < 8; ++k)
+            def.springs.push_back({i, k, (def.particles[i] - def.particles[k]).norm(), 100, 1, 0});
+    def.matter.selfCollision = true, def.matter.thickness = 1.5;  // so they touch
+    auto world = makeWorld({0, 0});
+    world->addSoftBody(def);
+    world->addRigidBody(box({21, 300}, 20, 20));
+    // What comes fast is looked ahead for, and makes the body look at itself by its grid.
+    const auto hit = [&] {
+        world->setPosition(1, {21, 120}), world->setVelocity(1, {0, -3000});
+        world->step(kStep);
+    };
+    const auto meetsItself = [&] {
+        const auto contacts = world->contacts();
+        return std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.bodyA == c.bodyB; });
+    };
+    hit();
+    EXPECT_TRUE(meetsItself());
+    world->setSprings(0, 100, 1, 0.5);
+    hit();
+    ASSERT_TRUE(world->borders(0).empty());
+    hit();
+    EXPECT_FALSE(meetsItself());
+}
+
 TEST(Tears, GasEscapesFromABodyThatIsCutOpen)
 {
     SoftBodyDef def = strip(0);
