@@ -1,6 +1,7 @@
 #include "queries.hpp"
 
 #include "border.hpp"
+#include "outline.hpp"
 #include "room.hpp"
 
 #include <algorithm>
@@ -14,6 +15,17 @@ constexpr Index kManyWalls = 24;  // beyond, walls are looked up in the body's g
 constexpr int kMostPieces = 32;   // of a ray through a large outline
 
 Vec2 cornerOf(const Part& part, int i) { return {part.corners[i].x, part.corners[i].y}; }
+
+/// On which side of a polygon's or chain's walls the outside is; 0: it bounds nothing.
+int outwardOf(const ShapeDef& shape)
+{
+    if (shape.kind == ShapeDef::Kind::Chain) return -1;
+    double area = 0;
+    const Vec2& origin = shape.points.front();
+    for (std::size_t i = 0; i < shape.points.size(); ++i)
+        area += cross(shape.points[i] - origin, shape.points[(i + 1) % shape.points.size()] - origin);
+    return area > 0 ? -1 : area < 0 ? 1 : 0;
+}
 
 }  // namespace
 
@@ -41,11 +53,13 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
     Index wall = body.walls.first;
     const Vec2& centre = state.nodes.position[body.nodes.first];
     for (const ShapeDef& shape : def.shapes) {
+        if (outlineOf(shape).size() < 3) continue;  // a chain all at one point
         Index ring = wall;
         while (ring < body.walls.end() && (ring == wall || state.walls.previous[ring] == ring - 1)) ++ring;
-        item.walls = {wall, ring - wall};
+        item.walls = {wall - body.walls.first, ring - wall};
         wall = ring;
         item.round = kNone;
+        item.outward = outwardOf(shape);
         if (shape.kind == ShapeDef::Kind::Circle || shape.kind == ShapeDef::Kind::Capsule) {
             item.round = static_cast<Index>(rounds_.size());
             makeRoom(1, rounds_);
@@ -62,7 +76,7 @@ Queries::Item Queries::itemAt(std::size_t index) const
     if (index >= items_.size()) return itemOf(static_cast<Index>(index - items_.size()));
     const Kept& kept = items_[index];
     Item item;
-    item.body = kept.body, item.walls = kept.walls;
+    item.body = kept.body, item.walls = kept.walls, item.outward = kept.outward;
     item.isRound = kept.round != kNone;
     if (item.isRound) item.round = rounds_[kept.round];
     return item;
@@ -93,7 +107,8 @@ Queries::Frame Queries::frameOf(const State& state, const Item& item)
 
 Range Queries::wallsOf(const State& state, const Item& item)
 {
-    return item.whole() ? state.bodies[item.body].walls : item.walls;
+    const Range& walls = state.bodies[item.body].walls;
+    return item.whole() ? walls : Range{walls.first + item.walls.first, item.walls.count};
 }
 
 Box Queries::boxOf(const State& state, const Item& item) const
@@ -113,7 +128,8 @@ Box Queries::boxOf(const State& state, const Item& item) const
         for (Index p = points.first; p < points.end(); ++p) box.extend(state.points.position[p]);
         return box;
     }
-    for (Index w = item.walls.first; w < item.walls.end(); ++w)
+    const Range walls = wallsOf(state, item);
+    for (Index w = walls.first; w < walls.end(); ++w)
         box.extend(state.points.position[state.walls.first[w]]),
             box.extend(state.points.position[state.walls.second[w]]);
     return box;
@@ -154,8 +170,8 @@ void Queries::eachEdge(const State& state, const Item& item, const Box& region, 
     const std::vector<Vec2>& at = state.gridFrame(body);
     const Range walls = wallsOf(state, item);
     const auto edge = [&](Index w) {
-        if (state.walls.outward[w] != 0)
-            visit(QueryEdge{at[state.walls.first[w]], at[state.walls.second[w]], state.walls.outward[w]});
+        const int outward = item.whole() ? state.walls.outward[w] : item.outward;
+        if (outward != 0) visit(QueryEdge{at[state.walls.first[w]], at[state.walls.second[w]], outward});
     };
     if (item.whole() && body.rigid && walls.count > kManyWalls) {
         gridOf(state, body).visit(region, [&](Index e) { edge(walls.first + e); });
@@ -181,7 +197,7 @@ bool Queries::inside(const State& state, const Item& item, const Vec2& at) const
     for (Index w = walls.first; w < walls.end(); ++w)
         edges.push_back({points[state.walls.first[w]], points[state.walls.second[w]]});
     // The sides of a chain do not close.
-    if (edges.empty() || state.walls.next[walls.end() - 1] != walls.first) return false;
+    if (!item.whole() && !edges.empty() && state.walls.next[walls.end() - 1] != walls.first) return false;
     return insideOdd(edges, at);
 }
 
@@ -211,16 +227,56 @@ std::optional<QueryHit> Queries::castRay(const State& state, const Item& item, c
     return best;
 }
 
+template <class Visit>
+void Queries::eachItem(Index body, Visit&& visit) const
+{
+    auto i = std::lower_bound(items_.begin(), items_.end(), body,
+                              [](const Kept& item, Index handle) { return item.body < handle; });
+    for (; i != items_.end() && i->body == body; ++i) visit(itemAt(static_cast<std::size_t>(i - items_.begin())));
+}
+
+double Queries::within(const State& state, Index body, const Vec2& from, const Vec2& way) const
+{
+    constexpr double kSeam = 1e-9;  // of the way, between shapes that lie side by side
+    struct Span {
+        double enters, leaves;
+    };
+    std::vector<Span> spans;
+    bool starts = false;
+    eachItem(body, [&](const Item& item) {
+        const Frame frame = frameOf(state, item);
+        const bool first = inside(state, item, frame.in(from)), last = inside(state, item, frame.in(from + way));
+        const auto enter = first ? std::nullopt : castRay(state, item, from, way, 1);
+        if (!first && !enter) return;
+        const auto leave = last ? std::nullopt : castRay(state, item, from + way, -way, 1);
+        starts |= first;
+        spans.push_back({enter ? enter->at : 0, leave ? 1 - leave->at : 1});
+    });
+    if (!starts) return -1;
+    double reached = 0;
+    for (bool farther = true; farther;) {
+        farther = false;
+        for (const Span& span : spans)
+            if (span.enters <= reached + kSeam && span.leaves > reached) reached = span.leaves, farther = true;
+    }
+    return reached + kSeam;
+}
+
 std::optional<CastHit> Queries::rayCast(const State& state, const Vec2& from, const Vec2& way,
                                         const QueryFilter& filter) const
 {
     std::optional<CastHit> best;
+    Index begun = kNone;  // the body of several shapes that was looked at last,
+    double passed = -1;   // and where the ray leaves it
     tree_.along(
         from, way, 0, [&] { return best ? best->fraction : 1.0; },
         [&](std::uint32_t index) {
             const Item item = itemAt(index);
             if (!seen(state, item.body, filter)) return;
             const auto hit = castRay(state, item, from, way, best ? best->fraction : 1.0);
+            const bool several = index < items_.size() && !item.whole();
+            if (hit && several && begun != item.body) begun = item.body, passed = within(state, item.body, from, way);
+            if (hit && several && hit->at <= passed) return;
             if (!hit || (best && (hit->at > best->fraction || (hit->at == best->fraction && item.body >= best->body))))
                 return;
             best = CastHit{item.body, hit->point, hit->normal, hit->at};
@@ -379,11 +435,9 @@ bool Queries::contains(const State& state, Index body, const Vec2& point) const
     if (!state.bodies[body].enabled) return false;
     const auto within = [&](const Item& item) { return inside(state, item, frameOf(state, item).in(point)); };
     if (state.bodies[body].single) return within(itemOf(body));
-    const auto first = std::lower_bound(items_.begin(), items_.end(), body,
-                                        [](const Kept& item, Index handle) { return item.body < handle; });
-    for (auto i = first; i != items_.end() && i->body == body; ++i)
-        if (within(itemAt(static_cast<std::size_t>(i - items_.begin())))) return true;
-    return false;
+    bool any = false;
+    eachItem(body, [&](const Item& item) { any = any || within(item); });
+    return any;
 }
 
 }  // namespace jet::physics

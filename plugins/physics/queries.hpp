@@ -41,7 +41,8 @@ private:
     struct Kept {
         Index body = 0;
         Index round = kNone;  // into rounds_
-        Range walls;          // of a shape; none: all walls of the body
+        Range walls;          // of a shape, from the body's first, as walls get other numbers; none: all of the body
+        int outward = 0;      // of a shape's walls, whatever other shapes lie over it
     };
     /// All within the radius of a segment, in the body's frame.
     struct Round {
@@ -52,6 +53,7 @@ private:
     struct Item {
         Index body = 0;
         Range walls;
+        int outward = 0;
         const Part* part = nullptr;  // a polygon
         bool isRound = false;
         Round round;
@@ -76,6 +78,12 @@ private:
     static void eachEdge(const State&, const Item&, const Box& region, Visit&& visit);
     bool inside(const State&, const Item&, const Vec2& at) const;
     std::optional<QueryHit> castRay(const State&, const Item&, const Vec2& from, const Vec2& way, double most) const;
+    /// Calls visit(item) for each of the body's.
+    template <class Visit>
+    void eachItem(Index body, Visit&& visit) const;
+    /// The part of the way on which a ray that starts within the body has not left all its shapes; < 0: it starts
+    /// outside.
+    double within(const State&, Index body, const Vec2& from, const Vec2& way) const;
     std::optional<QueryHit> castShape(const State&, const Item&, const CastShape&, const Vec2& way) const;
     bool overlaps(const State&, const Item&, const CastShape&) const;
     bool meetsBox(const State&, const Item&, const Box&) const;

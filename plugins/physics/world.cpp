@@ -20,6 +20,8 @@ World::World(const WorldSettings& settings) : settings_(settings)
     state_.clouds = &clouds;
     softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
     queries_.use(rigid_);
+    keepMark();
+    pairsOf_ = tableMark_;
 }
 
 BodyRecord& World::newBody(const BodyCommon& common, bool rigid)

@@ -125,6 +125,9 @@ private:
     void rouse(BodyHandle);
     void wakeBesideSoft();
     void restIfDue(double dt);
+    /// After restoring a state of another table of materials: whom bodies meet is found afresh.
+    void heedMaterials();
+    void keepMark();
     bool skipStep();
     const std::vector<Index>& islands() const;
 
@@ -201,10 +204,12 @@ private:
     std::size_t savedBytes_ = 4096;  // of the last state that was saved
 
     StiffnessBounds bounds_;
-    double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added
-    bool plain_ = false;      // as the thesis has it: Method::SemiImplicitEuler
-    double preparedFor_ = 0;  // substep the springs are prepared for, seconds
-    double impulsesOf_ = 0;   // substep the impulses of contacts and joints are of, seconds
+    double rate_ = -1;             // substeps / s the springs want; < 0: not known since something was added
+    bool plain_ = false;           // as the thesis has it: Method::SemiImplicitEuler
+    double preparedFor_ = 0;       // substep the springs are prepared for, seconds
+    double impulsesOf_ = 0;        // substep the impulses of contacts and joints are of, seconds
+    std::uint64_t pairsOf_ = 0;    // mark of the table of materials by which they were found,
+    std::uint64_t tableMark_ = 0;  // and of that in force
 };
 
 }  // namespace jet::physics

@@ -186,7 +186,7 @@ void World::archive(Self& self, Archive& with)
     }
     self.archivePins(with);
     with.list(self.stepForces_.values(), [&](Vec2& force) { with(force); });
-    with(self.settings_.gravity), with(self.impulsesOf_);
+    with(self.settings_.gravity), with(self.impulsesOf_), with(self.pairsOf_);
     with.list(self.contacts_.points, [&](ContactPoint& c) {
         with(c.point), with(c.wall), with(c.bodyA), with(c.bodyB), with(c.active), with(c.engaged), with(c.along);
         with(c.normalImpulse), with(c.tangentImpulse), with(c.stepImpulse);

@@ -2,6 +2,7 @@
 #include "validation.hpp"
 #include "world.hpp"
 
+#include <bit>
 #include <tuple>
 
 namespace jet::physics {
@@ -23,7 +24,26 @@ bool isLike(const WorldSettings& a, const WorldSettings& b)
     return a.gravity == b.gravity && parts(a) == parts(b);
 }
 
+std::uint64_t markOf(const std::vector<MaterialPair>& materials)
+{
+    std::uint64_t mark = 0xcbf29ce484222325ULL;
+    for (const MaterialPair& pair : materials)
+        for (const double value : {pair.friction, pair.restitution, pair.collides ? 1.0 : 0.0})
+            mark = (mark ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x100000001b3ULL, mark ^= mark >> 32;
+    return mark;
+}
+
 }  // namespace
+
+void World::keepMark() { tableMark_ = markOf(settings_.materials); }
+
+void World::heedMaterials()
+{
+    if (tableMark_ == pairsOf_) return;
+    pairsOf_ = tableMark_;
+    rigid_.wakeAll(state_);
+    rigid_.forgetPairs();
+}
 
 void World::setSettings(const WorldSettings& wanted)
 {
@@ -38,7 +58,8 @@ void World::setSettings(const WorldSettings& wanted)
                                  [](const MaterialPair& a, const MaterialPair& b) { return isLike(a, b); });
     if (!kept || !isLike(settings, settings_)) rigid_.wakeAll(state_);
     settings_ = std::move(settings);
-    if (!kept) rigid_.forgetPairs();
+    keepMark();
+    heedMaterials();
 }
 
 void World::setMass(BodyHandle handle, double mass)

@@ -62,6 +62,7 @@ void World::step(double dt)
     checks().above("the step", "its time", dt, 0);
     if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), told_ = 0;
     rememberTouches();
+    heedMaterials();
     if (skipStep()) return;
     told_ = 0;
     stats_ = StepStats();

@@ -95,8 +95,13 @@ void Contacts::look(State& state, const std::vector<Motion>& motions, double dt,
         survey(state, motions, pair, dt);
         pair.end = static_cast<Index>(touches_.size());
         if (before_) carryOver(state, *before_, pair, first);
-        if (pair.resolve == 0)
-            for (Index i = pair.first; i < pair.end; ++i) vacate(touches_[i]);
+        if (pair.resolve == 0) {
+            for (Index i = pair.first; i < pair.end; ++i) {
+                Touch& touch = touches_[i];
+                vacate(touch);
+                touch.normalImpulse = touch.tangentImpulse = touch.stepImpulse = 0;
+            }
+        }
         if (pair.resolve == 0 || unseated_) continue;
         for (Index i = pair.first; i < pair.end; ++i) {
             if (touches_[i].seat == kNone) touches_[i].seat = seatAmong(state, touches_[i]);

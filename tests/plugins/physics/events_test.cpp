@@ -126,6 +126,56 @@ TEST(Events, ASensorUnderASleepingBodyEndsWhenItIsSwitchedOff)
     EXPECT_FALSE(world->awake(1)) << "nothing held it there";
 }
 
+TEST(Events, ASoftBodyThatBecomesASensorTellsNoImpulsesOfBefore)
+{
+    const auto world = makeWorld({0, 100});
+    world->addRigidBody(ground(0));
+    world->addSoftBody(softBall({0, -11}, 10));
+    world->addSoftBody(softBall({0, -32}, 10));
+    run(*world, 1);
+    ASSERT_TRUE(world->touching(1, 2));
+    BodyCommon common;
+    common.sensor = true;
+    world->setBody(2, common);
+    for (int i = 0; i < 3; ++i) {
+        world->step(kStep);
+        for (const Contact& contact : world->contacts()) {
+            const bool held = contact.bodyA == 2 || contact.bodyB == 2;
+            EXPECT_TRUE(!held || contact.impulse == 0) << contact.impulse;
+        }
+    }
+}
+
+TEST(Events, WhatTheTableForbidsDoesNotTouchInAStateRestored)
+{
+    WorldSettings settings;
+    settings.gravity = {0, 100};
+    for (const bool drawn : {false, true}) {
+        const auto world = JetPhysics().createWorld(settings);
+        world->addRigidBody(drawn ? ground(0) : simple(ground(0)));
+        world->addRigidBody(drawn ? box({0, -5}, 10, 10) : simple(box({0, -5}, 10, 10)));
+        run(*world, 0.5);
+        ASSERT_TRUE(world->touching(0, 1));
+        const auto state = world->save();
+        WorldSettings passing = settings;
+        passing.materials[0].collides = false;
+        world->setSettings(passing);
+        world->restore(state);
+        EXPECT_TRUE(world->touching(0, 1)) << "it did then";
+        run(*world, 0.2);
+        EXPECT_FALSE(world->touching(0, 1));
+        EXPECT_GT(world->bodies().velocity[1].y(), 15) << "it falls";
+        // Where the table is the same, going back is bit-equal as before.
+        world->setSettings(settings);
+        world->restore(state);
+        run(*world, 0.2);
+        const auto expected = world->hash();
+        world->restore(state);
+        run(*world, 0.2);
+        EXPECT_EQ(world->hash(), expected);
+    }
+}
+
 TEST(Events, OfAnotherTimeAreNotToldAfterRestoring)
 {
     const auto world = makeWorld({0, 100});

@@ -304,6 +304,79 @@ TEST(Queries, NearestPointsAndOverlapsAreThoseOfAllBodies)
     }
 }
 
+RigidBodyDef boxes(const std::vector<std::pair<Vec2, Vec2>>& placesAndSizes)
+{
+    RigidBodyDef def;
+    for (const auto& [at, size] : placesAndSizes)
+        def.shapes.push_back({ShapeDef::Kind::Polygon, boxRing(at, size.x(), size.y()), 0});
+    return def;
+}
+
+TEST(Queries, ShapesThatLieOverEachOtherAreSeenWhole)
+{
+    auto world = makeWorld({0, 0});
+    // A bar whose long sides have their middles in a block.
+    const BodyHandle body = world->addRigidBody(boxes({{{0, 0}, {60, 10}}, {{0, 0}, {30, 30}}}));
+    const Vec2 shift = -world->bodies().position[body];
+    world->setPosition(body, {0, 0});
+    for (const double x : {-25.0, 25.0}) {
+        const auto hit = world->rayCast(Vec2(x, -50) + shift, Vec2(x, 50) + shift);
+        ASSERT_TRUE(hit) << x;
+        EXPECT_NEAR(hit->point.y(), -5, 1e-9);
+        EXPECT_NEAR(hit->normal.y(), -1, 1e-9);
+        const auto near = world->nearest({x, -8}, 5);
+        ASSERT_TRUE(near) << x;
+        EXPECT_NEAR(near->point.y(), -5, 1e-9);
+        EXPECT_EQ(world->overlapping(Box({x - 1, -6}, {x + 1, -4})), std::vector<BodyHandle>{body});
+        EXPECT_NEAR(world->shapeCast({ShapeDef::Kind::Circle, {{x, -50}}, 2}, {0, 100})->fraction, 0.43, 1e-9);
+    }
+}
+
+TEST(Queries, ARayFromWithinShapesSideBySideLeavesThemAllUnseen)
+{
+    auto world = makeWorld({0, 0});
+    RigidBodyDef row = boxes({{{0, 0}, {10, 10}}, {{10, 0}, {10, 10}}, {{22, 0}, {20, 4}}, {{70, 0}, {10, 10}}});
+    row.shapes.push_back({ShapeDef::Kind::Circle, {{0, 0}}, 8});
+    world->addRigidBody(row);
+    const auto hit = world->rayCast({0, 0}, {100, 0});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->point.x(), 65, 1e-6) << "what stands apart is met, the seams are not";
+    EXPECT_FALSE(world->rayCast({0, 0}, {60, 0}));
+    EXPECT_FALSE(world->rayCast({24, 0}, {-50, 0}));
+    EXPECT_NEAR(world->rayCast({50, 0}, {0, 0})->point.x(), 32, 1e-6) << "from between them";
+}
+
+TEST(Queries, ShapesKeepTheirPlaceWhenASoftBodyJoinsTheWorld)
+{
+    auto world = makeWorld({0, 0});
+    world->addRigidBody(simple(box({0, 0}, 10, 10)));  // has no walls of its own until the soft body comes
+    const BodyHandle pair = world->addRigidBody(boxes({{{40, 0}, {10, 10}}, {{60, 0}, {10, 10}}}));
+    RigidBodyDef block = simple(box({100, 0}, 10, 10));
+    block.common.fixed = true;
+    const BodyHandle ground = world->addRigidBody(block);
+    world->addSoftBody(square({200, 0}, 20));
+    EXPECT_EQ(world->rayCast({20, 0}, {80, 0})->body, pair);
+    EXPECT_EQ(world->rayCast({80, 0}, {180, 0})->body, ground);
+    EXPECT_EQ(world->nearest({100, 8}, 5)->body, ground);
+    EXPECT_TRUE(world->contains(ground, {100, 0}));
+    EXPECT_TRUE(world->contains(pair, {60, 0}));
+    EXPECT_FALSE(world->contains(pair, {50, 0}));
+}
+
+TEST(Queries, ASoftBodyWithAHoleContainsItsFlesh)
+{
+    SoftBodyDef ring = softBall({0, 0}, 30, 200, 1, 24, 3);
+    auto& hole = ring.borders.emplace_back();
+    for (std::uint32_t i = 0; i < 24; ++i) hole.push_back(1 + i);
+    auto world = makeWorld({0, 0});
+    world->addSoftBody(ring);
+    EXPECT_TRUE(world->contains(0, {20, 0}));
+    EXPECT_FALSE(world->contains(0, {2, 0}));
+    EXPECT_FALSE(world->contains(0, {40, 0}));
+    EXPECT_EQ(world->overlapping(Box({18, -1}, {22, 1})), std::vector<BodyHandle>{0});
+    EXPECT_TRUE(world->overlapping(Box({-1, -1}, {1, 1})).empty());
+}
+
 TEST(Queries, FiltersLookThroughBodies)
 {
     auto world = makeWorld({0, 0});
