@@ -32,12 +32,17 @@ struct alignas(32) ContactBlock {
     double ofPoint[kWide]{}, ofFirst[kWide]{}, ofSecond[kWide]{};
     // Carried from substep to substep, mass * unit / s.
     Floats normalImpulse{}, tangentImpulse{}, stepImpulse{};
-    Flags far{};            // of those that do not act: may wait long
-    Floats drift{};         // units they moved along their walls, and those turned, since they were looked at
-    std::int32_t idle = 0;  // substeps in which none of them can become active
+    Flags far{};     // of those that do not act: may wait long
+    Floats drift{};  // units they moved along their walls, and those turned, since they were looked at
+};
+
+/// What is asked of each block in each substep; apart from them, as a line of memory holds a dozen.
+struct ContactHead {
+    std::uint8_t idle = 0;  // substeps in which none of them can become active
     bool any = false;       // is one active?
     bool elastic = false;   // has one of the active ones restitution?
     bool bounces = false;   // is one to be thrown back?
+    bool drifted = false;   // has one of the active ones moved so far that it must be looked at again?
 };
 
 struct Softness {
@@ -75,17 +80,27 @@ struct Particles {
     const double* inverseMass;
 };
 
+/// All blocks, and the numbers of those with contacts that act, ascending.
+struct ContactBlocks {
+    ContactBlock* blocks;
+    ContactHead* heads;
+    std::size_t count;
+    std::uint32_t* acting;  // [count], of which actingCount are filled
+    std::size_t actingCount;
+};
+
 struct ContactKernels {
     /// Geometry as the particles stand, and which contacts act in this substep, where that may have changed. Velocities
-    /// are those the particles really moved with: before springs push them against what they lie on.
-    void (*refresh)(ContactBlock*, std::size_t count, const Particles&, const ContactStep&);
+    /// are those the particles really moved with: before springs push them against what they lie on. Returns how many
+    /// blocks act.
+    std::size_t (*refresh)(const ContactBlocks&, const Particles&, const ContactStep&);
     /// How fast those that may bounce meet.
-    void (*meet)(ContactBlock*, std::size_t count, const Particles&, float restSpeed);
+    void (*meet)(const ContactBlocks&, const Particles&, float restSpeed);
     /// Applies the impulses carried over.
-    void (*warm)(const ContactBlock*, std::size_t count, const Particles&);
+    void (*warm)(const ContactBlocks&, const Particles&);
     /// `push`: with what pushes overlaps apart; otherwise after the positions moved, without.
-    void (*solve)(ContactBlock*, std::size_t count, const Particles&, const ContactStep&, bool push);
-    void (*bounce)(ContactBlock*, std::size_t count, const Particles&, float restSpeed);
+    void (*solve)(const ContactBlocks&, const Particles&, const ContactStep&, bool push);
+    void (*bounce)(const ContactBlocks&, const Particles&, float restSpeed);
     /// near[block]: a bit for each wall the point may come to.
     NearResult (*survey)(const WallBlock*, std::size_t count, const NearQuery&, std::uint8_t* near);
 };

@@ -4,82 +4,42 @@
 namespace {
 
 constexpr float kTouchSlops = 4;  // kTouchDepth of contact_point.hpp
-constexpr float kIdleSlops = 8, kMostIdle = 8, kFarIdle = 6;
+constexpr float kIdleSlops = 5, kMostIdle = 8, kFarIdle = 6;
 constexpr float kMostDrift = 1;  // slops an acting contact moves before it is looked at again
 constexpr float kPushLengthsPerSecond = 4, kSlopsPerLength = 500;  // as of contact_solver.cpp
 
-/// What decides how long those that do not act may be left alone: units beyond an end of the wall, and units / s along
-/// it.
-struct Aside {
-    Eight beside, passing;
+/// Out of the wall, and how far the particle is along that. Units.
+struct Outward {
+    Eight x, y, separation;
+    Bits round;  // a thick border is round where two of its walls meet: there the corner itself is what is touched
 };
 
-JET_INLINE Aside decide(ContactBlock& c, const Offsets& at, const Offsets& moving, const ContactStep& step)
+JET_INLINE Outward outward(const ContactBlock& c, const Offsets& at, const Eight& along, const Eight& inverse)
 {
-    const Eight zero{}, one = all(1), far = all(1e30F), side = get(c.side), slop = get(c.slop);
-    const Eight squared = at.edgeX * at.edgeX + at.edgeY * at.edgeY;
-    const Bits valid = (squared > all(1e-24F)) & (side != zero);
-    const Eight length = root(squared), inverse = where(valid, one / length), inverseSquare = inverse * inverse;
-    const Eight wallX = -at.edgeY * side * inverse, wallY = at.edgeX * side * inverse;
-    const Eight height = at.x * wallX + at.y * wallY;
-    const Eight along = (at.x * at.edgeX + at.y * at.edgeY) * inverseSquare;
-    const Eight place = least(most(along, zero), one);
-    put(c.along, place);
-
-    // A thick border is round where two of its walls meet: there the corner itself is what is touched.
-    const Eight thickness = get(c.thickness);
-    const Bits thick = thickness > zero, inside = get(c.inside);
+    const Eight zero{}, side = get(c.side), thickness = get(c.thickness);
+    const Eight x = -at.edgeY * side * inverse, y = at.edgeX * side * inverse, height = at.x * x + at.y * y;
+    const Bits thick = thickness > zero;
+    if (bits(thick) == 0) return {x, y, height, thick};
     const Eight distance = root(at.x * at.x + at.y * at.y);
-    const Bits round = thick & (along < zero) & (height > zero) & (distance > all(1e-12F)) & ~inside;
-    const Eight outX = choose(round, at.x / distance, wallX), outY = choose(round, at.y / distance, wallY);
-    const Eight separation = choose(round, distance, height) - thickness;
-    put(c.normalX, outX), put(c.normalY, outY), put(c.separation, separation);
-
-    const Eight relativeX = moving.x - place * moving.edgeX, relativeY = moving.y - place * moving.edgeY;
-    const Eight approach = relativeX * outX + relativeY * outY;
-    const Eight slide = (relativeX * at.edgeX + relativeY * at.edgeY) * inverseSquare;
-    put(c.approach, approach);
-
-    const Bits front = separation > zero;
-    const Eight come = -approach * step.h;
-    const Bits comes = come > zero, late = front & (separation > come + come + kTouchSlops * slop);
-    const Eight part = least(one, choose(comes, separation / come, one));
-    const Eight there = along + where(front & comes, slide * step.h * part);
-    const Eight firstReach = choose(thick, where(round, far), get(c.firstReach));
-    const Eight secondReach = where(~thick, get(c.secondReach));
-    const Bits off = (there * length < -firstReach) | ((one - there) * length < -secondReach);
-    const Bits behind = (separation + thickness < -kTouchSlops * slop) & ~get(c.engaged);
-    const Bits met = valid & ~late & ~off & ~behind, active = met | (valid & inside);
-    put(c.engaged, get(c.engaged) | met), put(c.active, active);
-
-    const Eight rest = one - place;
-    const Eight give = get(c.invPoint) + rest * rest * get(c.invFirst) + place * place * get(c.invSecond);
-    put(c.mass, where(give > zero, one / give));
-    put(c.normalImpulse, where(active, get(c.normalImpulse)));
-    put(c.tangentImpulse, where(active, get(c.tangentImpulse)));
-    return {choose(thick, (along - one) * length, most(-along, along - one) * length), size(slide) * length};
+    const Bits round = thick & (along < zero) & (height > zero) & (distance > all(1e-12F)) & ~get(c.inside);
+    return {choose(round, at.x / distance, x), choose(round, at.y / distance, y),
+            choose(round, distance, height) - thickness, round};
 }
 
 /// For how many substeps those that do not act need not be looked at: what is far, and slow for that, may wait.
-JET_INLINE std::int32_t idleFor(ContactBlock& c, const Aside& aside, const ContactStep& step)
+/// `beside`: units beyond an end of the wall; `passing`: units / s along it.
+JET_INLINE std::uint8_t idleFor(ContactBlock& c, const Bits& active, const Eight& separation, const Eight& approach,
+                                const Eight& beside, const Eight& passing, float h)
 {
     const Eight slop = get(c.slop), longest = all(kMostIdle);
-    const Eight above = (get(c.separation) - kIdleSlops * slop) / (4 * size(get(c.approach)) * step.h + slop);
-    const Eight beside = (aside.beside - kIdleSlops * slop) / (4 * aside.passing * step.h + slop);
-    const Bits waits = (get(c.side) != Eight{}) & ~get(c.active);
-    const Eight wait = choose(waits, least(most(above, beside), longest), longest);
-    put(c.far, (wait >= all(kFarIdle)) & ~get(c.active));
-    const float shortest = leastOf(wait, kMostIdle);
-    return shortest > 1 ? static_cast<std::int32_t>(shortest) : 0;
-}
-
-/// Is there nothing to look at in this substep? What acts keeps its direction and its place on the wall until it has
-/// moved so far that they have changed.
-JET_INLINE bool isAsItWas(ContactBlock& c)
-{
-    if (c.idle == 0) return false;
-    --c.idle;
-    return !c.any || bits(get(c.active) & (get(c.drift) > kMostDrift * get(c.slop))) == 0;
+    const Eight above = (separation - kIdleSlops * slop) / (4 * size(approach) * h + slop);
+    const Eight aside = (beside - kIdleSlops * slop) / (4 * passing * h + slop);
+    const Bits waits = (get(c.side) != Eight{}) & ~active;
+    const Eight wait = choose(waits, least(most(above, aside), longest), longest);
+    put(c.far, (wait >= all(kFarIdle)) & ~active);
+    // Without a branch: it would be guessed wrong often, and stop the next look.
+    return static_cast<std::uint8_t>(
+        _mm_cvttss_si32(_mm_max_ss(_mm_set_ss(leastOf(wait, kMostIdle)), _mm_setzero_ps())));
 }
 
 /// What an impulse changes the velocities of the three particles by. In double, so that momentum is kept.
@@ -93,19 +53,68 @@ JET_INLINE void weigh(ContactBlock& c, const double* inverseMass)
     }
 }
 
-void refresh(ContactBlock* blocks, std::size_t count, const Particles& particles, const ContactStep& step)
+JET_INLINE void look(ContactBlock& c, ContactHead& head, const Particles& particles, const ContactStep& step)
 {
-    for (std::size_t i = 0; i < count; ++i) {
-        ContactBlock& c = blocks[i];
-        if (isAsItWas(c)) continue;
-        const Aside aside = decide(c, offsets(particles.position, c), offsets(particles.velocity, c), step);
-        c.any = bits(get(c.active)) != 0;
-        c.elastic = bits(get(c.active) & (get(c.restitution) > Eight{})) != 0;
-        c.bounces = false;
-        c.idle = idleFor(c, aside, step);
-        put(c.drift, Eight{});
-        if (c.any) weigh(c, particles.inverseMass);
+    const Offsets at = offsets(particles.position, c), moving = offsets(particles.velocity, c);
+    const Eight zero{}, one = all(1), far = all(1e30F), slop = get(c.slop), thickness = get(c.thickness);
+    const Eight squared = at.edgeX * at.edgeX + at.edgeY * at.edgeY;
+    const Bits valid = (squared > all(1e-24F)) & (get(c.side) != zero);
+    const Eight length = root(squared), inverse = where(valid, one / length), inverseSquare = inverse * inverse;
+    const Eight along = (at.x * at.edgeX + at.y * at.edgeY) * inverseSquare;
+    const Eight place = least(most(along, zero), one);
+    const Outward out = outward(c, at, along, inverse);
+
+    const Eight relativeX = moving.x - place * moving.edgeX, relativeY = moving.y - place * moving.edgeY;
+    const Eight approach = relativeX * out.x + relativeY * out.y;
+    const Eight slide = (relativeX * at.edgeX + relativeY * at.edgeY) * inverseSquare;
+
+    const Bits front = out.separation > zero, thick = thickness > zero, inside = get(c.inside);
+    const Eight come = -approach * step.h;
+    const Bits comes = come > zero, late = front & (out.separation > come + come + kTouchSlops * slop);
+    const Eight part = least(one, choose(comes, out.separation / come, one));
+    const Eight there = along + where(front & comes, slide * step.h * part);
+    const Eight firstReach = choose(thick, where(out.round, far), get(c.firstReach));
+    const Eight secondReach = where(~thick, get(c.secondReach));
+    const Bits off = (there * length < -firstReach) | ((one - there) * length < -secondReach);
+    const Bits behind = (out.separation + thickness < -kTouchSlops * slop) & ~get(c.engaged);
+    const Bits met = valid & ~late & ~off & ~behind, active = met | (valid & inside);
+
+    const Eight beside = choose(thick, (along - one) * length, most(-along, along - one) * length);
+    head.idle = idleFor(c, active, out.separation, approach, beside, size(slide) * length, step.h);
+    head.bounces = head.drifted = head.elastic = false;
+    put(c.along, place);
+    const bool acted = head.any;
+    head.any = bits(active) != 0;
+    put(c.normalImpulse, where(active, get(c.normalImpulse)));  // those not in use yet go on from a neighbouring wall
+    put(c.tangentImpulse, where(active, get(c.tangentImpulse)));
+    if (!head.any && !acted) return;
+
+    put(c.normalX, out.x), put(c.normalY, out.y), put(c.separation, out.separation), put(c.approach, approach);
+    put(c.engaged, get(c.engaged) | met), put(c.active, active), put(c.drift, zero);
+    head.elastic = bits(active & (get(c.restitution) > zero)) != 0;
+    const Eight rest = one - place;
+    const Eight give = get(c.invPoint) + rest * rest * get(c.invFirst) + place * place * get(c.invSecond);
+    put(c.mass, where(give > zero, one / give));
+    weigh(c, particles.inverseMass);
+}
+
+/// First finds which blocks there is something to look at in this substep, without branches. What acts keeps its
+/// direction and its place on the wall until it has moved so far that they have changed.
+std::size_t refresh(const ContactBlocks& of, const Particles& particles, const ContactStep& step)
+{
+    std::size_t due = 0, acting = 0;
+    for (std::size_t i = 0; i < of.count; ++i) {
+        ContactHead& head = of.heads[i];
+        of.acting[due] = static_cast<std::uint32_t>(i);
+        due += head.idle == 0 || head.drifted;
+        head.idle -= head.idle != 0;
     }
+    for (std::size_t k = 0; k < due; ++k) look(of.blocks[of.acting[k]], of.heads[of.acting[k]], particles, step);
+    for (std::size_t i = 0; i < of.count; ++i) {
+        of.acting[acting] = static_cast<std::uint32_t>(i);
+        acting += of.heads[i].any;
+    }
+    return acting;
 }
 
 /// How fast the particles pass the walls: apart, and along them.
@@ -119,25 +128,28 @@ JET_INLINE Passing passing(const ContactBlock& c, const Offsets& moving)
     return {x * normalX + y * normalY, y * normalX - x * normalY};
 }
 
-void meet(ContactBlock* blocks, std::size_t count, const Particles& particles, float restSpeed)
+void meet(const ContactBlocks& of, const Particles& particles, float restSpeed)
 {
-    for (std::size_t i = 0; i < count; ++i) {
-        ContactBlock& c = blocks[i];
-        if (!c.any || !c.elastic) continue;
+    for (std::size_t k = 0; k < of.actingCount; ++k) {
+        ContactHead& head = of.heads[of.acting[k]];
+        if (!head.elastic) continue;
+        ContactBlock& c = of.blocks[of.acting[k]];
         const Eight approach = passing(c, offsets(particles.velocity, c)).apart;
         put(c.approach, approach);
-        c.bounces = bits(get(c.active) & (get(c.restitution) > Eight{}) & (approach < all(-restSpeed))) != 0;
+        head.bounces = bits(get(c.active) & (get(c.restitution) > Eight{}) & (approach < all(-restSpeed))) != 0;
     }
 }
 
-void warm(const ContactBlock* blocks, std::size_t count, const Particles& particles)
+void warm(const ContactBlocks& of, const Particles& particles)
 {
-    for (std::size_t i = 0; i < count; ++i)
-        if (blocks[i].any) exert(blocks[i], particles, get(blocks[i].normalImpulse), get(blocks[i].tangentImpulse));
+    for (std::size_t k = 0; k < of.actingCount; ++k) {
+        const ContactBlock& c = of.blocks[of.acting[k]];
+        exert(c, particles, get(c.normalImpulse), get(c.tangentImpulse));
+    }
 }
 
 template <bool push>
-JET_INLINE void solveOne(ContactBlock& c, const Particles& particles, const ContactStep& step)
+JET_INLINE void solveOne(ContactBlock& c, ContactHead& head, const Particles& particles, const ContactStep& step)
 {
     const Eight zero{}, one = all(1), mass = get(c.mass);
     const Offsets moving = offsets(particles.velocity, c);
@@ -146,7 +158,9 @@ JET_INLINE void solveOne(ContactBlock& c, const Particles& particles, const Cont
     if constexpr (!push) {
         separation = separation + step.h * speed.apart;
         put(c.separation, separation);
-        put(c.drift, get(c.drift) + step.h * (size(speed.along) + size(moving.edgeX) + size(moving.edgeY)));
+        const Eight drift = get(c.drift) + step.h * (size(speed.along) + size(moving.edgeX) + size(moving.edgeY));
+        put(c.drift, drift);
+        head.drifted = bits(get(c.active) & (drift > kMostDrift * get(c.slop))) != 0;
     }
     const Bits apart = separation > zero, active = get(c.active);
     const Eight before = get(c.normalImpulse), tangentBefore = get(c.tangentImpulse);
@@ -172,23 +186,23 @@ JET_INLINE void solveOne(ContactBlock& c, const Particles& particles, const Cont
 }
 
 template <bool push>
-void solveAll(ContactBlock* blocks, std::size_t count, const Particles& particles, const ContactStep& step)
+void solveAll(const ContactBlocks& of, const Particles& particles, const ContactStep& step)
 {
-    for (std::size_t i = 0; i < count; ++i)
-        if (blocks[i].any) solveOne<push>(blocks[i], particles, step);
+    for (std::size_t k = 0; k < of.actingCount; ++k)
+        solveOne<push>(of.blocks[of.acting[k]], of.heads[of.acting[k]], particles, step);
 }
 
-void solve(ContactBlock* blocks, std::size_t count, const Particles& particles, const ContactStep& step, bool push)
+void solve(const ContactBlocks& of, const Particles& particles, const ContactStep& step, bool push)
 {
-    push ? solveAll<true>(blocks, count, particles, step) : solveAll<false>(blocks, count, particles, step);
+    push ? solveAll<true>(of, particles, step) : solveAll<false>(of, particles, step);
 }
 
-void bounce(ContactBlock* blocks, std::size_t count, const Particles& particles, float restSpeed)
+void bounce(const ContactBlocks& of, const Particles& particles, float restSpeed)
 {
     const Eight zero{};
-    for (std::size_t i = 0; i < count; ++i) {
-        ContactBlock& c = blocks[i];
-        if (!c.bounces) continue;
+    for (std::size_t k = 0; k < of.actingCount; ++k) {
+        if (!of.heads[of.acting[k]].bounces) continue;
+        ContactBlock& c = of.blocks[of.acting[k]];
         const Eight before = get(c.normalImpulse), restitution = get(c.restitution), approach = get(c.approach);
         const Bits thrown = get(c.active) & (restitution > zero) & (approach < all(-restSpeed)) & (before > zero);
         const Eight missing = passing(c, offsets(particles.velocity, c)).apart + restitution * approach;

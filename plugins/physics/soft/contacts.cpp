@@ -11,7 +11,7 @@ constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;  
 constexpr double kBluntOverhang = 2;                                            // in slops
 constexpr int kBouncePasses = 4;
 // Pairs that move less than so many lengths in a step are looked at again only once they have moved that much further.
-constexpr double kSlowLengths = 0.1, kRoomLengths = 0.04;
+constexpr double kSlowLengths = 0.1, kRoomLengths = 0.06;
 // Contacts that act get new seats once they are spread over this many times the lanes they need, and so many more.
 constexpr double kMostSpread = 1.25, kLeastSpread = 32;
 constexpr std::size_t kSlack = 256;  // touches that are over, and are kept for a while
@@ -54,14 +54,15 @@ void Contacts::find(State& state, const WorldSettings& settings, const std::vect
     if (first) ended_.clear();
     path_.resize(state.bodies.size(), 0.0);
     if (refill_ || blocks_.empty()) rebuild(state);
-    while (!blocks_.empty() && isEmpty(blocks_.back())) blocks_.pop_back();
+    std::size_t used = blocks_.size();
+    while (used > 0 && isEmpty(blocks_[used - 1])) --used;
+    resize(used);
     pairs_.swap(pairsBefore_);
     plan(state, settings, motions, bodies);
     look(state, motions, dt, first);
-    for (ContactBlock& block : blocks_) {
-        block.idle = 0;
+    for (ContactHead& head : heads_) head.idle = 0;
+    for (ContactBlock& block : blocks_)
         if (first) block.stepImpulse = Floats{};
-    }
     if (first) kept_ = false;
     if (unseated_ || !wellSeated()) {
         keep();
@@ -161,12 +162,23 @@ void Contacts::survey(State& state, const std::vector<Motion>& motions, Pair& pa
 bool Contacts::wellSeated() const
 {
     std::size_t acting = 0, blocks = 0;
-    for (const ContactBlock& block : blocks_) {
-        if (!block.any) continue;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        if (!heads_[k].any) continue;
         ++blocks;
-        for (Index lane = 0; lane < kWide; ++lane) acting += block.active[lane] != 0;
+        for (Index lane = 0; lane < kWide; ++lane) acting += blocks_[k].active[lane] != 0;
     }
     return static_cast<double>(blocks * kWide) <= kMostSpread * static_cast<double>(acting) + kLeastSpread;
+}
+
+void Contacts::resize(std::size_t blocks)
+{
+    blocks_.resize(blocks), heads_.resize(blocks), acting_.resize(blocks);
+    actingCount_ = 0;
+}
+
+ContactBlocks Contacts::blocks()
+{
+    return {blocks_.data(), heads_.data(), blocks_.size(), acting_.data(), actingCount_};
 }
 
 /// The blocks as the touches' seats say.
@@ -174,7 +186,7 @@ void Contacts::rebuild(const State& state)
 {
     keep();
     refill_ = false;
-    blocks_.clear();
+    resize(0);
     unseated_ = false;
     for (const Pair& pair : pairs_) {
         for (Index i = pair.first; i < pair.end && pair.resolve != 0; ++i) {
@@ -183,7 +195,7 @@ void Contacts::rebuild(const State& state)
                 unseated_ = true;
                 continue;
             }
-            if (touch.seat / kWide >= blocks_.size()) blocks_.resize(touch.seat / kWide + std::size_t{1});
+            if (touch.seat / kWide >= blocks_.size()) resize(touch.seat / kWide + std::size_t{1});
             fill(state, pair, touch);
         }
     }
@@ -211,7 +223,7 @@ Index Contacts::seatAmong(const State& state, const Touch& touch)
         }
         if (free != kNone && !held) return static_cast<Index>(k) * kWide + free;
     }
-    blocks_.emplace_back();
+    resize(blocks_.size() + 1);
     return (static_cast<Index>(blocks_.size()) - 1) * kWide;
 }
 
@@ -253,10 +265,9 @@ void Contacts::travel(const State& state, std::span<const Vec2> from)
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         if (!body.wide || body.fixed) continue;
-        double most = 0;
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-            most = std::max(most, (state.nodes.position[n] - from[n]).squaredNorm());
-        path_[handle] += std::sqrt(most);
+        const Index first = body.nodes.first;
+        path_[handle] += std::sqrt(state.clouds->farthest(state.nodes.position[first].data(), from[first].data(),
+                                                          nullptr, 0, body.nodes.count));
     }
 }
 
@@ -324,7 +335,7 @@ void Contacts::carryOver(const State& state, const Pair& before, const Pair& now
 /// so that the blocks of the others can wait.
 void Contacts::seat(const State& state)
 {
-    blocks_.clear();
+    resize(0);
     unseated_ = false;
     const auto rankOf = [](const Touch& touch) {
         return touch.active != 0 || touch.inside != 0 ? 0 : touch.far == 0 ? 1 : 2;
@@ -350,14 +361,14 @@ Index Contacts::freeSeat(Index point, Index first, Index second)
 {
     const std::uint64_t free = ~(seated_[point] | seated_[first] | seated_[second]);
     if (free == 0) {  // a block of its own
-        blocks_.emplace_back();
+        resize(blocks_.size() + 1);
         return (static_cast<Index>(blocks_.size()) - 1) * kWide;
     }
     const int slot = __builtin_ctzll(free);
     const std::uint64_t bit = std::uint64_t{1} << slot;
     if (filled_[slot] == 0) {
         open_[slot] = static_cast<Index>(blocks_.size());
-        blocks_.emplace_back();
+        resize(blocks_.size() + 1);
     }
     const Index seat = open_[slot] * kWide + filled_[slot]++;
     seated_[point] |= bit, seated_[first] |= bit, seated_[second] |= bit;
@@ -401,7 +412,7 @@ void Contacts::fill(const State& state, const Pair& pair, const Touch& touch)
     block.active[lane] = touch.active != 0 ? -1 : 0;
     block.far[lane] = touch.far != 0 ? -1 : 0;
     block.along[lane] = touch.along;
-    block.any |= touch.active != 0;
+    heads_[touch.seat / kWide].any |= touch.active != 0;
 }
 
 void Contacts::refresh(State& state, double h, double gravity)
@@ -411,26 +422,23 @@ void Contacts::refresh(State& state, double h, double gravity)
     kept_ = false;
     step_ = {static_cast<float>(h), static_cast<float>(1 / h), static_cast<float>(4 * gravity * h), softness(hertz, h),
              softness(2 * hertz, h)};
-    kernels_->refresh(blocks_.data(), blocks_.size(), particlesOf(state), step_);
+    actingCount_ = kernels_->refresh(blocks(), particlesOf(state), step_);
 }
 
 void Contacts::push(State& state)
 {
-    if (blocks_.empty()) return;
     const Particles particles = particlesOf(state);
-    kernels_->meet(blocks_.data(), blocks_.size(), particles, step_.restSpeed);
-    kernels_->warm(blocks_.data(), blocks_.size(), particles);
-    kernels_->solve(blocks_.data(), blocks_.size(), particles, step_, true);
+    kernels_->meet(blocks(), particles, step_.restSpeed);
+    kernels_->warm(blocks(), particles);
+    kernels_->solve(blocks(), particles, step_, true);
 }
 
 void Contacts::relax(State& state)
 {
-    if (blocks_.empty()) return;
     const Particles particles = particlesOf(state);
-    kernels_->solve(blocks_.data(), blocks_.size(), particles, step_, false);
-    if (std::none_of(blocks_.begin(), blocks_.end(), [](const ContactBlock& block) { return block.bounces; })) return;
-    for (int pass = 0; pass < kBouncePasses; ++pass)
-        kernels_->bounce(blocks_.data(), blocks_.size(), particles, step_.restSpeed);
+    kernels_->solve(blocks(), particles, step_, false);
+    if (std::none_of(heads_.begin(), heads_.end(), [](const ContactHead& head) { return head.bounces; })) return;
+    for (int pass = 0; pass < kBouncePasses; ++pass) kernels_->bounce(blocks(), particles, step_.restSpeed);
 }
 
 void Contacts::keep()
@@ -448,7 +456,7 @@ void Contacts::keep(const Pair& pair)
         if (touch.seat == kNone || touch.seat / kWide >= blocks_.size()) continue;
         const ContactBlock& block = blocks_[touch.seat / kWide];
         const Index lane = touch.seat % kWide;
-        touch.active = block.active[lane] != 0 && block.any;
+        touch.active = block.active[lane] != 0 && heads_[touch.seat / kWide].any;
         touch.engaged = block.engaged[lane] != 0;
         touch.far = block.far[lane] != 0;
         touch.along = block.along[lane];
@@ -467,7 +475,7 @@ void Contacts::scale(double ratio)
 
 void Contacts::clear()
 {
-    pairs_.clear(), touches_.clear(), ended_.clear(), blocks_.clear();
+    pairs_.clear(), touches_.clear(), ended_.clear(), resize(0);
     kept_ = true;
 }
 
@@ -488,7 +496,7 @@ void Contacts::forget(const State& state, const std::function<bool(Index)>& body
     }
     touches_.swap(kept);
     ended_.clear();
-    blocks_.clear();
+    resize(0);
     for (Touch& touch : touches_) touch.seat = kNone;
 }
 
@@ -525,6 +533,7 @@ std::size_t Contacts::bytes() const
 {
     return (pairs_.capacity() + pairsBefore_.capacity()) * sizeof(Pair) +
            (touches_.capacity() + compacted_.capacity()) * sizeof(Touch) + blocks_.capacity() * sizeof(ContactBlock) +
+           heads_.capacity() * sizeof(ContactHead) + acting_.capacity() * sizeof(std::uint32_t) +
            walls_.capacity() * sizeof(WallBlock) + seated_.capacity() * sizeof(std::uint64_t) +
            skins_.capacity() * sizeof(Skin) + ended_.capacity() * sizeof(ContactPoint) +
            path_.capacity() * sizeof(double);

@@ -83,7 +83,7 @@ public:
     /// After reading back: there are no blocks.
     void restored()
     {
-        blocks_.clear();
+        resize(0);
         kept_ = true;
     }
 
@@ -124,6 +124,8 @@ private:
     void rebuild(const State&);
     Index seatAmong(const State&, const Touch&);
     void vacate(Touch&);
+    void resize(std::size_t blocks);
+    ContactBlocks blocks();
     void keep(const Pair&);
     std::size_t live() const;
     void compact();
@@ -146,6 +148,9 @@ private:
     std::vector<Touch> touches_;       // ranges of the pairs; between them, what is over
     std::vector<ContactPoint> ended_;  // pushed in this step, but are over
     std::vector<ContactBlock> blocks_;
+    std::vector<ContactHead> heads_;     // [blocks]
+    std::vector<std::uint32_t> acting_;  // [blocks], of which the first actingCount_ are blocks that act
+    std::size_t actingCount_ = 0;
     bool refill_ = false;    // do the blocks hold what was so before?
     bool kept_ = true;       // do the touches hold what the blocks do?
     bool unseated_ = false;  // have some touches no seats?
