@@ -1,28 +1,32 @@
 #include "broad_phase.hpp"
 
+#include <algorithm>
+
 namespace jet::physics {
 
 void findPairs(const State& state, const std::vector<Motion>& motions, std::vector<BodyPair>& pairs)
 {
     pairs.clear();
-    std::vector<Index>& order = state.scratch.order;
-    order.clear();
-    for (Index body = 0; body < motions.size(); ++body)
-        if (state.bodies[body].points.count > 0 && !motions[body].reach.isNull()) order.push_back(body);
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        const double left = motions[a].reach.min.x(), right = motions[b].reach.min.x();
-        return left < right || (left == right && a < b);
+    std::vector<Scratch::Reach>& reaches = state.scratch.reaches;
+    reaches.clear();
+    for (Index body = 0; body < motions.size(); ++body) {
+        const BodyRecord& record = state.bodies[body];
+        const Box& box = motions[body].reach;
+        if (record.points.count == 0 || box.isNull()) continue;
+        reaches.push_back({box.min.x(), box.max.x(), box.min.y(), box.max.y(), body, record.fixed, record.simple});
+    }
+    std::sort(reaches.begin(), reaches.end(), [](const Scratch::Reach& p, const Scratch::Reach& q) {
+        return p.left < q.left || (p.left == q.left && p.body < q.body);
     });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Box& own = motions[order[i]].reach;
-        for (std::size_t j = i + 1; j < order.size(); ++j) {
-            const Box& other = motions[order[j]].reach;
-            if (other.min.x() > own.max.x()) break;
-            if (other.min.y() > own.max.y() || other.max.y() < own.min.y()) continue;
-            if (state.bodies[order[i]].fixed && state.bodies[order[j]].fixed) continue;
-            if (state.bodies[order[i]].simple && state.bodies[order[j]].simple) continue;
-            if (!state.mayMeet(order[i], order[j])) continue;
-            pairs.push_back({std::min(order[i], order[j]), std::max(order[i], order[j])});
+    const std::size_t count = reaches.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Scratch::Reach own = reaches[i];
+        for (std::size_t j = i + 1; j < count && !(reaches[j].left > own.right); ++j) {
+            const Scratch::Reach& other = reaches[j];
+            if (other.top > own.bottom || other.bottom < own.top) continue;
+            if ((own.fixed && other.fixed) || (own.simple && other.simple)) continue;
+            if (!state.mayMeet(own.body, other.body)) continue;
+            pairs.push_back({std::min(own.body, other.body), std::max(own.body, other.body)});
         }
     }
     std::sort(pairs.begin(), pairs.end(),

@@ -3,6 +3,8 @@
 
 #include "state.hpp"
 
+#include <limits>
+
 namespace jet::physics {
 
 struct BodyPair {
@@ -18,6 +20,10 @@ struct Motion {
     double surprise = 0;  // units a hit by a faster body may carry it, beyond the prediction
     double range = 0;     // units any of its points may move
     double stray = 0;     // units its points may leave the predicted rigid motion before contacts are sought again
+    // Soft bodies:
+    double spread = 0;                                     // units / s their particles move besides, at most
+    double off = std::numeric_limits<double>::infinity();  // units from where the shape at rest has them, at most
+    double radius = 0;                                     // units from the centre, at most
 };
 
 /// Pairs whose reaches meet, by a sweep over boxes sorted along x; in ascending order. Pairs of fixed bodies are left

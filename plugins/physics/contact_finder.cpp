@@ -125,7 +125,6 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
     for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);
-    if (first) measureClosing(dt);
     stats.broadPhaseMs += millisecondsSince(start);
 
     const auto narrow = std::chrono::steady_clock::now();
@@ -186,21 +185,6 @@ bool ContactFinder::expectHits(const State& state, double dt)
         }
     }
     return grew;
-}
-
-void ContactFinder::measureClosing(double dt)
-{
-    closing_.assign(motions_.size(), 0.0);
-    const auto carried = [](const Motion& by, const Vec2& at) {
-        return Vec2(by.velocity + by.omega * perpendicular(at - by.centre));
-    };
-    for (const BodyPair& pair : pairs_) {
-        const Motion &a = motions_[pair.a], &b = motions_[pair.b];
-        const double speed =
-            std::max((carried(b, a.centre) - a.velocity).norm(), (carried(a, b.centre) - b.velocity).norm());
-        closing_[pair.a] = std::max(closing_[pair.a], speed + a.surprise / dt);
-        closing_[pair.b] = std::max(closing_[pair.b], speed + b.surprise / dt);
-    }
 }
 
 bool ContactFinder::isSlow(const State& state, const BodyPair& pair, double dt) const
@@ -330,6 +314,8 @@ void ContactFinder::predict(const State& state, const WorldSettings& settings, d
     budgets_.assign(state.bodies.size(), 0.0);
     for (Index handle = 0; handle < state.bodies.size(); ++handle)
         predictBody(state, handle, settings, dt, motions_[handle], budgets_[handle]);
+    offs_.clear();
+    for (const Motion& motion : motions_) offs_.push_back(motion.off);
     position_ = state.nodes.position;
     velocity_ = state.nodes.velocity;
     angle_ = state.nodes.angle;
@@ -359,13 +345,17 @@ void ContactFinder::predictBody(const State& state, Index handle, const WorldSet
         motion.centre = state.readings.position[handle];
         motion.velocity = state.readings.velocity[handle];
         motion.omega = state.readings.omega[handle];
-        const soft::Cloud cloud{nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first], nullptr,
-                                body.nodes.count};
-        const soft::CloudMotion rigid{motion.centre.x(), motion.centre.y(), motion.velocity.x(), motion.velocity.y(),
-                                      motion.omega};
-        spread = std::sqrt(clouds_->stray(cloud, rigid).speed);
+        const soft::Cloud cloud{nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first],
+                                body.soft->restArms[0].data(), body.nodes.count};
+        const Vec2 turn = body.soft->bestTurn();
+        const soft::CloudMotion rigid{
+            motion.centre.x(), motion.centre.y(), motion.velocity.x(), motion.velocity.y(), motion.omega,
+            turn.x(),          turn.y()};
+        const soft::CloudStray stray = clouds_->stray(cloud, rigid);
+        spread = motion.spread = std::sqrt(stray.speed);
+        if (!turn.isZero()) motion.off = std::sqrt(stray.off);
     }
-    const double radius = 0.5 * motion.reach.size().norm();
+    const double radius = motion.radius = 0.5 * motion.reach.size().norm();
     const double turning = std::min(std::abs(motion.omega) * dt, 2.0) * radius;
     const double gravity = settings.applyGravity ? settings.gravity.norm() * std::abs(body.gravityScale) : 0;
     budget = kStrayLengths * body.length + kStrayOfMotion * (motion.velocity.norm() * dt + turning) + gravity * dt * dt;
@@ -378,7 +368,7 @@ void ContactFinder::predictBody(const State& state, Index handle, const WorldSet
     motion.reach = motion.reach.inflated(turning + motion.stray + 4 * kSlopPerLength * body.length + body.thickness());
 }
 
-bool ContactFinder::strayed(const State& state, double elapsed) const
+bool ContactFinder::strayed(const State& state, double elapsed)
 {
     if (lonely_) return false;
     const Nodes& nodes = state.nodes;
@@ -391,9 +381,14 @@ bool ContactFinder::strayed(const State& state, double elapsed) const
         if (body.rigid) {
             const double turned = std::abs(nodes.angle[n] - angle_[n] - elapsed * omega_[n]);
             if (std::sqrt(off) + static_cast<double>(body.radius) * turned > budgets_[handle]) return true;
-        } else if (off > budgets_[handle] * budgets_[handle]) {
-            return true;
+            continue;
         }
+        if (off > budgets_[handle] * budgets_[handle]) return true;
+        // What they moved besides counts twice, as the fit may turn by it. A turn takes them off a straight line.
+        const Motion& motion = motions_[handle];
+        const double turn = std::abs(motion.omega) * elapsed;
+        offs_[handle] = motion.off * (1 + turn) + 2 * (std::sqrt(off) + elapsed * motion.spread) +
+                        0.5 * turn * turn * motion.radius;
     }
     return false;
 }

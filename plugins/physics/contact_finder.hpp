@@ -17,7 +17,7 @@ public:
     /// Appends those contacts the last find() dropped that had pushed in this step: they are over, but they happened.
     void collectEnded(std::span<const ContactPoint> contacts, std::vector<ContactPoint>& ended) const;
     /// Has a body moved, since find(), further from its prediction than its contacts allow for? `elapsed`: seconds.
-    bool strayed(const State&, double elapsed) const;
+    bool strayed(const State&, double elapsed);
 
     /// Pairs that joints keep from colliding; ascending, the smaller handle first.
     void exclude(std::vector<std::pair<Index, Index>> pairs) { excluded_ = std::move(pairs); }
@@ -28,8 +28,9 @@ public:
     const std::vector<BodyPair>& pairs() const { return pairs_; }
     /// [nodes] where they were; nothing where nothing could meet.
     std::span<const Vec2> positions() const { return lonely_ ? std::span<const Vec2>() : position_; }
-    /// [bodies] units / s at which others may hit them until the next find(); nothing where nothing could meet.
-    std::span<const double> closing() const { return lonely_ ? std::span<const double>() : closing_; }
+    /// [bodies] units their particles are now, as of the last strayed(), from where the shape at rest has them, at
+    /// most; infinite: unknown. Nothing where nothing could meet.
+    std::span<const double> offs() const { return lonely_ ? std::span<const double>() : offs_; }
     /// Pairs that soft/contacts.hpp takes; ascending.
     const std::vector<BodyPair>& softPairs() const { return softPairs_; }
 
@@ -37,7 +38,6 @@ private:
     bool isSlow(const State&, const BodyPair&, double dt) const;
     void splitPairs(const State&, double dt);
     bool expectHits(const State&, double dt);
-    void measureClosing(double dt);
     void readBorders(State&);
     void predict(const State&, const WorldSettings&, double dt);
     void predictBody(const State&, Index body, const WorldSettings&, double dt, Motion&, double& budget) const;
@@ -51,7 +51,7 @@ private:
     bool lonely_ = false;  // is there nothing that could meet?
     std::vector<Motion> motions_;
     std::vector<double> budgets_;            // [bodies] units a node may stray
-    std::vector<double> closing_;            // [bodies] units / s
+    std::vector<double> offs_;               // [bodies] units
     std::vector<Vec2> position_, velocity_;  // [nodes] at the last find()
     Column<double> angle_{0}, omega_{0};
     std::vector<std::pair<Index, Index>> excluded_;

@@ -133,24 +133,32 @@ soft::Cloud ShapeMemory::cloudOf(State& state, const Lattice& lattice)
     return {position_[0].data(), velocity_[0].data(), mass_.data(), lattice.rest[0].data(), count};
 }
 
-void ShapeMemory::look(State& state, double dt, std::span<const double> closing)
+/// What is nailed down has no shape of its own, neither has what flows; a twin (soft/twins.hpp) does it better.
+bool ShapeMemory::forgets(const State& state, const Lattice& lattice)
+{
+    const SoftMatter& matter = state.bodies[lattice.body].soft->matter;
+    return matter.yield > 0 || matter.shapeStiffness > 0 || anyPinned(state, lattice);
+}
+
+void ShapeMemory::look(State& state, double dt)
 {
     for (Lattice& lattice : lattices_) {
-        // What is nailed down has no shape of its own, neither has what flows; a twin (soft/twins.hpp) does it better.
-        const SoftMatter& matter = state.bodies[lattice.body].soft->matter;
-        lattice.relaxed = matter.yield > 0 || matter.shapeStiffness > 0 || anyPinned(state, lattice);
+        lattice.relaxed = forgets(state, lattice);
         if (lattice.relaxed) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);
-        const double speed = std::sqrt(stray.speed) + (closing.empty() ? 0 : closing[lattice.body]);
-        lattice.relaxed = std::sqrt(stray.off) + speed * dt < kRelaxed * lattice.tolerance;
+        lattice.relaxed = std::sqrt(stray.off) + std::sqrt(stray.speed) * dt < kRelaxed * lattice.tolerance;
     }
 }
 
-void ShapeMemory::apply(State& state, const SoftSprings& springs, double h)
+void ShapeMemory::apply(State& state, const SoftSprings& springs, double h, std::span<const double> offs)
 {
+    const auto isRelaxed = [&](const Lattice& lattice) {
+        if (offs.empty()) return lattice.relaxed;
+        return (lattice.nodes.empty() && offs[lattice.body] <= lattice.tolerance) || forgets(state, lattice);
+    };
     for (Lattice& lattice : lattices_) {
-        if (lattice.relaxed || springs.anyTorn(lattice.body)) continue;
+        if (isRelaxed(lattice) || springs.anyTorn(lattice.body)) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const Motion motion = match(cloud, lattice);
         const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));

@@ -26,12 +26,13 @@ public:
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
     void use(const soft::CloudKernels& kernels) { kernels_ = &kernels; }
-    /// Once a step, before its substeps: bodies that cannot come near their tolerance within dt are left out of it.
-    /// `closing`: [bodies] units / s at which something may hit them meanwhile; empty: nothing can. One that is hit
-    /// must not be left out: seen only when it is crushed already, it would get what it costs to crush it as a present.
-    void look(State&, double dt, std::span<const double> closing);
+    /// Once a step, before its substeps, where nothing can hit the bodies: those that cannot come near their tolerance
+    /// within dt are left out of it.
+    void look(State&, double dt);
     /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
-    void apply(State&, const SoftSprings&, double h);
+    /// `offs`: [bodies] units their particles are from where the shape at rest has them, at most. One that is hit must
+    /// be seen as it is crushed: later, it would get what it costs to crush it as a present. Empty: as of look().
+    void apply(State&, const SoftSprings&, double h, std::span<const double> offs);
 
     template <class Archive>
     void archive(Archive& with)
@@ -49,7 +50,7 @@ private:
         double inertia = 0;          // sum m |q|²
         double tolerance = 0;        // scene units
         double rate = 0;             // omega², 1 / s²
-        bool relaxed = false;        // far inside the tolerance in this step
+        bool relaxed = false;        // far inside the tolerance in this step: see look()
         Vec2 rotation = Vec2(1, 0);  // (cos, sin) of R; stays where it was while no angle fits better than others
     };
     /// The rigid motion nearest to that of the particles.
@@ -61,6 +62,7 @@ private:
     };
 
     static bool anyPinned(const State&, const Lattice&);
+    static bool forgets(const State&, const Lattice&);
     soft::Cloud cloudOf(State&, const Lattice&);
     Motion match(const soft::Cloud&, Lattice&) const;
     static soft::CloudReturn netOf(const soft::CloudPulled&, const Lattice&, const Motion&);

@@ -89,6 +89,7 @@ void readSoft(State& state, Index handle)
                             &state.nodes.mass[first], body.soft->restArms[0].data(), body.nodes.count});
     double& angle = state.readings.angle[handle];
     // Of what was before only the whole turns count, so that a restored state reads the same bits.
+    body.soft->fit = {sums.along, sums.across};
     const double fit = angleOf(sums.across, sums.along);
     angle = fit + 2 * kPi * std::round((angle - fit) / (2 * kPi));
     state.readings.position[handle] = {sums.x, sums.y};

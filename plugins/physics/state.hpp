@@ -95,6 +95,16 @@ struct SoftRecord {
     Vec2 twinTurn = Vec2(1, 0);         // (cos, sin) of the twin's angle; stays while no angle fits better than others
     double twinRate = 0, twinLoss = 0;  // as soft/twins.hpp prepared them for the substep at hand
     double restGyrationSquared = 0;     // of the shape at rest, units²
+    Vec2 fit = Vec2(0, 0);  // (sum m q·p, sum m q×p) as last read, q at rest and p now from the centre: see CloudSums
+
+    /// (cos, sin) of the angle by which the shape at rest fits best; null where no angle fits better than others, as
+    /// where the body is turned inside out.
+    Vec2 bestTurn() const
+    {
+        constexpr double kLeastFit = 0.2;  // of that at rest
+        const double size = fit.norm();
+        return size > kLeastFit * restGyrationSquared * mass ? Vec2(fit / size) : Vec2(0, 0);
+    }
 };
 
 struct BodyRecord {
@@ -153,7 +163,14 @@ struct BodyReadings {
 
 /// Room that is used again each step. Not thread-local: a destructor of a thread would keep the library in memory.
 struct Scratch {
-    std::vector<Index> order, candidates;
+    /// Where a body may come in the coming step, for the search for pairs.
+    struct Reach {
+        double left, right, top, bottom;  // scene units
+        Index body;
+        bool fixed, simple;
+    };
+    std::vector<Reach> reaches;
+    std::vector<Index> candidates;
     std::vector<EdgeGrid::Edge> edges;
     std::vector<Vec2> gradient;
 };

@@ -195,9 +195,9 @@ void World::substep(double h, int index, int count)
         if (!plain_) springs_.applyAngular(state_, h, backwards);
         if (accounts) accounts_.end(state_);
         soft::applyPressure(state_, h);
-        if (index == 0 && !plain_)
-            shapes_.look(state_, count * h, settings_.findCollisions ? finder_.closing() : std::span<const double>());
-        if (!plain_) shapes_.apply(state_, springs_, h);
+        const std::span<const double> offs = settings_.findCollisions ? finder_.offs() : std::span<const double>();
+        if (index == 0 && !plain_ && offs.empty()) shapes_.look(state_, count * h);
+        if (!plain_) shapes_.apply(state_, springs_, h, offs);
         if (accounts) accounts_.begin(state_);
         if (!plain_) actuators_.applySprings(state_, h, backwards);
         if (accounts) accounts_.end(state_);

@@ -172,6 +172,26 @@ TEST(ShapeMemory, BodiesUnfoldEvenWhereNoRotationFitsBest)
     }
 }
 
+/// Alone, a step is looked at as a whole; in company, each substep: what is left out there had nothing to be pulled at.
+TEST(ShapeMemory, ABodyUnfoldsInCompanyAsItDoesAlone)
+{
+    for (const SoftBodyDef& def : {defaultBall({0, 0}, 30), square({0, 0}, 50), banana({0, 0}, 40)}) {
+        std::vector<Vec2> ends[2];
+        for (const bool inCompany : {false, true}) {
+            auto world = makeWorld({0, 0});
+            world->addSoftBody(def);
+            if (inCompany) world->addRigidBody(ground(100000));
+            deform(*world, def, [](const Vec2& p) { return Vec2(1.2 * p.x(), 0.4 * p.y()); });
+            world->setOmega(0, 6);
+            run(*world, 3);
+            const auto points = pointsOf(*world, 0);
+            ends[inCompany ? 1 : 0].assign(points.begin(), points.end());
+        }
+        for (std::size_t i = 0; i < def.particles.size(); ++i)
+            EXPECT_LT((ends[0][i] - ends[1][i]).norm(), 1e-9) << "particle " << i;
+    }
+}
+
 TEST(ShapeMemory, AnUndeformedBodyIsNotTouched)
 {
     const SoftBodyDef def = defaultBall({5, -70}, 30);
