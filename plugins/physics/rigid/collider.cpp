@@ -4,7 +4,6 @@
 #include "manifold.hpp"
 #include "room.hpp"
 
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <tuple>
@@ -13,26 +12,13 @@ namespace jet::physics {
 
 namespace {
 
-constexpr float kSlop = 0.002F;  // of the length of the smaller part
-constexpr float kRoom = 0.03F;   // of the typical length: margin of the boxes
+constexpr float kRoom = 0.03F;  // of the typical length: margin of the boxes
 constexpr float kRoomOfLength = 0.05F;
 constexpr float kAhead = 2;     // steps
 constexpr float kQuiet = 0.5F;  // slops: within this far of where it was a body counts as still
 constexpr float kMoved = 1e30F;
-constexpr float kThin = 0.5F;      // of the thickness
 constexpr float kLongTypical = 6;  // typical lengths: longer thin parts are sought piece by piece
 constexpr int kMostPieces = 64;
-constexpr std::size_t kSoughtABlock = 128;  // parts
-
-constexpr std::size_t kAddedABlock = 32;  // pairs
-constexpr std::size_t kPrefetched = 6;    // pairs
-
-/// Sorts by the left side, then by the part.
-std::uint64_t leftOf(const FatBox& box, Index part)
-{
-    const auto bits = std::bit_cast<std::uint32_t>(box.minX + 0.0F);  // null has no sign
-    return static_cast<std::uint64_t>(bits >> 31 != 0 ? ~bits : bits | 0x80000000U) << 32 | part;
-}
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
@@ -88,16 +74,11 @@ void Collider::disturbAll()
     for (Index i = 0; i < contacts_.size(); ++i) markDue(i);
 }
 
-bool Collider::rouses(RigidContact& c)
+void Collider::rouse(Index contact)
 {
-    bool any = false;
-    for (const Index body : {c.bodyA, c.bodyB}) {
-        if (!bodies_[body].asleep) continue;
-        roused_.push_back(body);
-        markDue(static_cast<Index>(&c - contacts_.data()));
-        any = true;
-    }
-    return any;
+    for (const Index body : {contacts_[contact].bodyA, contacts_[contact].bodyB})
+        if (bodies_[body].asleep) roused_.push_back(body);
+    markDue(contact);
 }
 
 void Collider::releaseAwake()
@@ -128,9 +109,9 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
     rearranged_ = false;
     prepareBodies(arena);
     const float fall = static_cast<float>(settings.applyGravity ? settings.gravity.norm() * dt * dt : 0);
-    std::atomic<bool> left = false;
-    domains.eachBody(pool, [&](Index body, Index) {
-        if (!bodies_[body].posed && takePose(body, state, fall, dt)) fast_.store(true, std::memory_order_relaxed);
+    Flag left;
+    const auto take = [&](Index body, Index) {
+        if (!bodies_[body].posed && takePose(body, state, fall, dt)) fast_.raise();
         if (bodies_[body].posed != bodies_[body].asleep) bodies_[body].posed = bodies_[body].asleep;
         noteReached(body);
         if (bodies_[body].asleep) {
@@ -138,8 +119,10 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
             return;
         }
         noteDrift(body);
-        if (fitBoxes(body, dt)) left.store(true, std::memory_order_relaxed);
-    });
+        if (fitBoxes(body, dt)) left.raise();
+    };
+    // Both threads have read all poses since.
+    domains.eachBody(pool, take, [&](Index body, Index) { prefetchToWrite(&poses_[body]); });
     if (left) sweep_.noteMoves();
     findPairs(settings, pool, arena);
     hits_.assign(contacts_.size(), 0);
@@ -178,7 +161,8 @@ void Collider::prepareBodies(Arena& arena)
     drift_[0] = 0, reached_[0] = 0;
     if (sweep_.parts() != parts_.size()) prepareSweep();
     sweep_.open(arena);
-    surprised_ = fast_ = false;
+    surprised_ = false;
+    fast_.lower();
 }
 
 /// How far the body is from where its boxes were fitted.
@@ -353,171 +337,6 @@ void Collider::fitPieces(std::vector<FatBox>& pieces, Index index, const Pose& p
                                  to * slab.along + slab.low * across, to * slab.along + slab.high * across};
         pieces[static_cast<std::size_t>(i)] = withAhead(boxAround(corners, 4, part.radius + room, pose, dt), pose, dt);
     }
-}
-
-void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena)
-{
-    if (!sweep_.anyMoved()) return;
-    sweep_.begin(arena, pool);
-    const std::size_t blocks = (sweep_.parts() + kSoughtABlock - 1) / kSoughtABlock;
-    if (foundBy_.size() < blocks) foundBy_.resize(blocks);
-    // From left to right: the order decides the order of solving, and this one lets tall heaps rest.
-    pool.run(blocks, [&](std::size_t block) {
-        auto& found = foundBy_[block];
-        found.clear();
-        const std::size_t first = block * kSoughtABlock, last = std::min(sweep_.parts(), first + kSoughtABlock);
-        sweep_.seek(first, last, [&](Index a, Index b) {
-            const std::uint64_t left = leftOf(sweep_.box(a), a), right = leftOf(sweep_.box(b), b);
-            found.push_back(right >> 32 < left >> 32 ? FoundPair{right, left} : FoundPair{left, right});
-        });
-        std::erase_if(found, [&](const FoundPair& pair) { return known_.contains(pair.key()); });
-        std::sort(found.begin(), found.end());
-    });
-    sweep_.finish(arena);
-    mergeFound(blocks, pool);
-    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
-    addFound(settings, pool);
-    hits_.resize(contacts_.size(), 0);
-}
-
-/// What the blocks found, each in order, into one list: neighbours are merged until one is left.
-void Collider::mergeFound(std::size_t blocks, Pool& pool)
-{
-    firstOf_.assign(1, 0);
-    for (std::size_t block = 0; block < blocks; ++block) firstOf_.push_back(firstOf_.back() + foundBy_[block].size());
-    found_.resize(firstOf_.back()), merged_.resize(firstOf_.back());
-    const auto at = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-    for (std::size_t block = 0; block < blocks; ++block)
-        std::copy(foundBy_[block].begin(), foundBy_[block].end(), at(found_, firstOf_[block]));
-    for (std::size_t width = 1; width < blocks && !found_.empty(); width *= 2) {
-        auto merge = [&](std::size_t i) {
-            const std::size_t first = firstOf_[2 * i * width], middle = firstOf_[std::min((2 * i + 1) * width, blocks)],
-                              last = firstOf_[std::min((2 * i + 2) * width, blocks)];
-            std::merge(at(found_, first), at(found_, middle), at(found_, middle), at(found_, last), at(merged_, first));
-        };
-        pool.run((blocks + 2 * width - 1) / (2 * width), merge);
-        found_.swap(merged_);
-    }
-}
-
-/// New contacts have their numbers in the order of the pairs; all else of them is up to each alone.
-void Collider::addFound(const WorldSettings& settings, Pool& pool)
-{
-    pool.ranges(found_.size(), kAddedABlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            if (i + kPrefetched < last) prefetchPair(found_[i + kPrefetched]);
-            found_[i].contact = accepts(found_[i], settings) ? 0 : kNone;
-        }
-    });
-    std::erase_if(found_, [](const FoundPair& pair) { return pair.contact == kNone; });
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-        if (i + kPrefetched < found_.size()) known_.prefetch(found_[i + kPrefetched].key());
-        known_.insert(found_[i].key());
-        found_[i].contact = takeContact();
-    }
-    pool.ranges(found_.size(), kAddedABlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) makeContact(found_[i], settings);
-    });
-}
-
-/// New pairs lie anywhere in memory.
-void Collider::prefetchPair(const FoundPair& pair) const
-{
-    for (const Index part : {pair.partA(), pair.partB()}) {
-        __builtin_prefetch(&parts_[part]), __builtin_prefetch(&parts_[part].thickness);
-    }
-}
-
-Index Collider::takeContact()
-{
-    if (!free_.empty()) {
-        const Index contact = free_.back();
-        free_.pop_back();
-        __builtin_prefetch(&contacts_[contact], 1), __builtin_prefetch(&contacts_[contact].normal, 1);
-        __builtin_prefetch(&nearing_[contact], 1);
-        return contact;
-    }
-    makeRoom(1, contacts_, places_, nearing_);
-    contacts_.emplace_back(), places_.push_back(kIdle), nearing_.emplace_back();
-    return static_cast<Index>(contacts_.size() - 1);
-}
-
-bool Collider::mayMeet(Index a, Index b) const
-{
-    const RigidBody &bodyA = bodies_[a], &bodyB = bodies_[b];
-    if (a == b || (!bodyA.moves && !bodyB.moves) || !bodyA.enabled || !bodyB.enabled) return false;
-    const Rules &rulesA = rulesOf(bodyA), &rulesB = rulesOf(bodyB);
-    if (rulesA.group != 0 && rulesA.group == rulesB.group) return false;
-    return (rulesA.layer & rulesB.mask) != 0 && (rulesB.layer & rulesA.mask) != 0;
-}
-
-/// A moving round part rests on sides of the other: circles come second.
-std::pair<Index, Index> Collider::orderedParts(const FoundPair& pair) const
-{
-    Index a = std::min(pair.partA(), pair.partB()), b = std::max(pair.partA(), pair.partB());
-    if (parts_[a].count < parts_[b].count && parts_[a].count == 1) std::swap(a, b);
-    return {a, b};
-}
-
-bool Collider::accepts(const FoundPair& pair, const WorldSettings& settings) const
-{
-    const auto [partA, partB] = orderedParts(pair);
-    const Index a = parts_[partA].body, b = parts_[partB].body;
-    return mayMeet(a, b) && materialsOf(a, b, settings).collides && !(isLonger(partA, partB) && apart(partA, partB)) &&
-           !excluded_.contains(bodyKey(a, b));
-}
-
-const MaterialPair& Collider::materialsOf(Index a, Index b, const WorldSettings& settings) const
-{
-    return settings.materials[static_cast<std::size_t>(rulesOf(bodies_[a]).material) * settings.materialCount +
-                              rulesOf(bodies_[b]).material];
-}
-
-void Collider::makeContact(const FoundPair& pair, const WorldSettings& settings)
-{
-    RigidContact c;
-    std::tie(c.partA, c.partB) = orderedParts(pair);
-    const Part &partA = parts_[c.partA], &partB = parts_[c.partB];
-    c.bodyA = partA.body, c.bodyB = partB.body;
-    const RigidBody &bodyA = bodies_[c.bodyA], &bodyB = bodies_[c.bodyB];
-    const MaterialPair& materials = materialsOf(c.bodyA, c.bodyB, settings);
-    c.friction = static_cast<float>(materials.friction), c.restitution = static_cast<float>(materials.restitution);
-    c.slop = kSlop * (!bodyA.moves ? partB.length : !bodyB.moves ? partA.length : std::min(partA.length, partB.length));
-    c.resolve = !bodyA.sensor && !bodyB.sensor;
-    c.special = bodyA.oneSided || bodyB.oneSided || isLonger(c.partA, c.partB);
-    Nearing n;
-    n.bodyA = c.bodyA, n.bodyB = c.bodyB, n.slop = c.slop;
-    n.thin = kThin * std::min(partA.thickness, partB.thickness);
-    contacts_[pair.contact] = c, places_[pair.contact] = kIdle, nearing_[pair.contact] = n;
-}
-
-void Collider::forget(Index contact)
-{
-    known_.erase(contacts_[contact].key());
-    places_[contact] = kFree;
-    free_.push_back(contact);
-}
-
-/// Boxes of long oblique parts meet much that they do not: here B's box is looked at from A's sides.
-bool Collider::apart(Index partA, Index partB) const
-{
-    const Index longer = parts_[partA].length >= parts_[partB].length ? partA : partB;
-    const Part& part = parts_[longer];
-    if (part.count < 2) return false;
-    const FatBox& box = sweep_.box(longer == partA ? partB : partA);
-    const Pose& pose = poses_[part.body];
-    const float halfX = 0.5F * (box.maxX - box.minX), halfY = 0.5F * (box.maxY - box.minY);
-    const double middleX = 0.5 * (static_cast<double>(box.minX) + box.maxX),
-                 middleY = 0.5 * (static_cast<double>(box.minY) + box.maxY);
-    const Vec2f middle{static_cast<float>(middleX - pose.x), static_cast<float>(middleY - pose.y)};
-    const float room = part.radius + std::max(pose.room, 0.0F) + ahead(part.body) + pose.travel + surprise_[part.body];
-    for (int i = 0; i < part.count; ++i) {
-        const Vec2f n = turned(pose.turn, part.normals[i]);
-        const float away =
-            dot(n, middle) - dot(part.normals[i], part.corners[i]) - std::abs(n.x) * halfX - std::abs(n.y) * halfY;
-        if (away > room) return true;
-    }
-    return false;
 }
 
 void Collider::forgetPairs()

@@ -10,6 +10,7 @@
 #include "pairs.hpp"
 #include "pool.hpp"
 #include "rules.hpp"
+#include "sharing.hpp"
 #include "sift.hpp"
 #include "weld.hpp"
 
@@ -33,8 +34,8 @@ public:
     /// Its pairs are sought afresh, those that were known and have been forgotten too.
     void seekAgain(Index body);
 
-    /// Does the contact, which is to push, hold a sleeping body? Then that is to be woken first.
-    bool rouses(RigidContact&);
+    /// The contact, which is to push, holds a sleeping body: that is to be woken first.
+    void rouse(Index contact);
     /// Sleeping bodies that were found to be touched by others.
     std::vector<Index>& roused() { return roused_; }
     /// Contacts that slept and have a body that does not any more are looked at again.
@@ -78,6 +79,11 @@ public:
         __builtin_prefetch(&contacts_[contact], 1);
         __builtin_prefetch(&poses_[nearing_[contact].bodyA]), __builtin_prefetch(&poses_[nearing_[contact].bodyB]);
     }
+    /// All of it is read and written soon.
+    void prefetchWhole(Index contact) const
+    {
+        prefetchToWrite(&contacts_[contact]), prefetchToWrite(&contacts_[contact].normal);
+    }
     /// Nothing more is looked at in this step: gives back what of the arena is needed for that alone.
     void endLooks(Arena& arena)
     {
@@ -100,7 +106,13 @@ public:
     void update(const std::vector<Index>& which, std::vector<Look>& looks, double dt);
     /// Of up to eight contacts without points: a bit for each that update() would keep without points, and it is done.
     std::uint32_t sift(const Index* which, std::size_t count, double dt);
-    void forget(Index contact);
+    void forget(Index contact)
+    {
+        places_[contact] = kFree;
+        forgetPair(contact);
+    }
+    /// The same, beside whatever others do with contacts, of one whose place says so.
+    void forgetPair(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
     void stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves, const std::vector<double>& turns,
@@ -150,6 +162,7 @@ public:
     void rebuild();
 
 private:
+    static constexpr float kSlop = 0.002F;  // of the length of the smaller part
     static std::uint64_t bodyKey(Index a, Index b)
     {
         return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
@@ -191,17 +204,23 @@ private:
             return p.left != q.left ? p.left < q.left : p.right < q.right;
         }
     };
+    /// Pairs that one thread brings in order, of all that were found: [from, to).
+    struct Piece {
+        FoundPair from, to;
+        std::vector<std::size_t> runs;  // [blocks + 1] where those of each block begin
+    };
     void mergeFound(std::size_t blocks, Pool&);
+    void mergePiece(Piece&, std::size_t blocks);
     std::pair<Index, Index> orderedParts(const FoundPair&) const;
     void prefetchPair(const FoundPair&) const;
     void addFound(const WorldSettings&, Pool&);
     bool accepts(const FoundPair&, const WorldSettings&) const;
-    Index takeContact();
+    void takeContacts();
+    void prefetchNew(Index contact) const;
     const MaterialPair& materialsOf(Index bodyA, Index bodyB, const WorldSettings&) const;
     void makeContact(const FoundPair&, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
     std::size_t nextHit(std::size_t from) const;
-    std::size_t nextMarked(std::size_t from) const;
     bool surprise(Index body, float gain, double dt);
     bool apart(Index partA, Index partB) const;
     Relative relative(Index bodyA, Index bodyB) const;
@@ -212,6 +231,20 @@ private:
         reached_[body] = way_[body] + static_cast<double>(poses_[body].travel + surprise_[body]);
     }
     bool isLonger(Index partA, Index partB) const { return sweep_.isLonger(partA, partB); }
+    /// Of a step that is over.
+    struct Moves {
+        const std::vector<Vec2>& moves;    // [bodies]
+        const std::vector<double>& turns;  // [bodies]
+        float dropped;                     // units: what is lost of moves in single precision
+        double dt;
+    };
+    /// The part of their moves that two bodies go at most; above 1: what held them back gives way.
+    struct Stop {
+        Index bodyA, bodyB;
+        float part;
+    };
+    void findStops(std::size_t first, std::size_t last, const Moves&, std::vector<Stop>&) const;
+    float untilPassed(const RigidContact&, float thin, const Moves&) const;
     float withinBox(Index body, const Vec2& move, double dt) const;
     float untilCentrePasses(const RigidContact&, const Vec2& relativeMove) const;
     float closingSpeed(const RigidContact&) const;
@@ -247,17 +280,24 @@ private:
     KeySet known_, excluded_;
     std::vector<FoundPair> found_, merged_;        // scratch of findPairs()
     std::vector<std::vector<FoundPair>> foundBy_;  // the same, by blocks
-    std::vector<std::size_t> firstOf_;             // [blocks + 1] where what they found begins in it
+    std::vector<Piece> pieces_;
     std::vector<RigidContact> contacts_;
-    std::vector<Place> places_;       // [contacts]
-    std::vector<Nearing> nearing_;    // [contacts]
-    std::vector<std::uint8_t> hits_;  // [contacts] has one been seen in this step; in the end: marks
-    std::vector<Vec2f> moved_;        // [bodies] units in this step; scratch of stopTunnelling()
-    std::vector<double> way_;         // [bodies] units their farthest points have come since they were added
-    std::vector<Index> free_;         // gaps in the contacts
-    std::vector<Index> roused_;       // bodies
-    float typical_ = 0;               // length of a moving part in the middle
-    std::atomic<bool> fast_ = false;  // does any body move by much of its size in this step?
+    std::vector<Place> places_;               // [contacts]
+    std::vector<Nearing> nearing_;            // [contacts]
+    std::vector<std::uint8_t> hits_;          // [contacts] has one been seen in this step?
+    std::vector<std::vector<Stop>> stopsBy_;  // scratch of stopTunnelling()
+    /// How a body moves in this step; scratch of stopTunnelling().
+    struct Going {
+        Vec2f move;         // units
+        float allowed = 1;  // part of it
+        float unused = 0;
+    };
+    std::vector<Going> going_;   // [bodies]
+    std::vector<double> way_;    // [bodies] units their farthest points have come since they were added
+    std::vector<Index> free_;    // gaps in the contacts
+    std::vector<Index> roused_;  // bodies
+    float typical_ = 0;          // length of a moving part in the middle
+    Flag fast_;                  // does any body move by much of its size in this step?
     bool surprised_ = false, disturbed_ = true;
 };
 

@@ -13,7 +13,6 @@ constexpr float kPushPerSlop = kPushLengths * kSlopsPerLength;
 constexpr std::uint32_t kGroupsABlock = 16;
 constexpr std::size_t kGroupsAhead = 3;
 constexpr std::size_t kIdleABlock = 512;
-constexpr std::size_t kPrefetched = 4;
 
 void prefetch(const Part& part)
 {
@@ -57,28 +56,40 @@ void Solver<Real>::addLane(Colour& colour, bool alone)
 template <class Real>
 void Solver<Real>::refresh(Collider& collider, double dt, bool resolve)
 {
-    refreshPlaced(collider, dt, resolve);
-    refreshIdle(collider, dt, resolve);
+    if (drifts_.empty()) drifts_ = arena_->take<float>(domains_.slotCount());
+    drifts_[0] = collider.drifts()[0];
+    domains_.eachBody(
+        *pool_, [&](Index body, Index slot) { drifts_[slot] = collider.drifts()[body]; },
+        [&](Index, Index slot) { prefetchToWrite(&drifts_[slot]); });
+    const std::size_t placed = listPlaced(), size = collider.contacts().size();
+    const std::size_t idle = (size + kIdleABlock - 1) / kIdleABlock;
+    for (std::size_t i = placed; i < placed + idle; ++i) blockAt(i);
+    pool_->both(
+        placed, [&](std::size_t i) { refreshPlaced(collider, dt, resolve, blocks_[i]); }, idle,
+        [&](std::size_t i) {
+            const std::size_t first = i * kIdleABlock, last = std::min(size, first + kIdleABlock);
+            refreshIdle(collider, dt, resolve, first, last, blocks_[placed + i]);
+        });
+    settleBlocks(collider, placed + idle, resolve);
 }
 
 template <class Real>
 typename Solver<Real>::Block& Solver<Real>::blockAt(std::size_t index)
 {
     if (index >= blocks_.size()) blocks_.resize(index + 1);
-    blocks_[index].outcomes.clear();
-    blocks_[index].hardest = 0;
-    blocks_[index].foresees = false;
-    return blocks_[index];
+    Block& block = blocks_[index];
+    block.outcomes.clear();
+    block.hardest = 0;
+    block.foresees = block.bounces = false;
+    return block;
 }
 
+/// Blocks of all that have constraints, in the order of the tree; how many there are.
 template <class Real>
-void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve)
+std::size_t Solver<Real>::listPlaced()
 {
-    if (drifts_.empty()) drifts_ = arena_->take<float>(domains_.slotCount());
-    drifts_[0] = collider.drifts()[0];
-    domains_.eachBody(*pool_, [&](Index body, Index slot) { drifts_[slot] = collider.drifts()[body]; });
     std::size_t count = 0;
-    const auto list = [&](Node node) {
+    domains_.below(Domains::kRoot, [&](Node node) {
         for (std::size_t which = firstColourOf(node); which < firstColourOf(node) + kColours; ++which) {
             const auto size = static_cast<std::uint32_t>(colours_[which].contacts.size());
             for (std::uint32_t first = 0; first < size; first += kGroupsABlock) {
@@ -87,27 +98,8 @@ void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve)
                 block.first = first, block.last = std::min(first + kGroupsABlock, size);
             }
         }
-    };
-    domains_.below(Domains::kRoot, list);
-    pool_->run(count, [&](std::size_t i) { refreshBlock(collider, dt, resolve, blocks_[i]); });
-    settleBlocks(collider, count, resolve);
-}
-
-/// Whatever the order of the work, what follows from it is done in the order of the blocks.
-template <class Real>
-void Solver<Real>::settleBlocks(Collider& collider, std::size_t count, bool resolve)
-{
-    for (std::size_t i = 0; i < count; ++i) {
-        hardest_ = std::max(hardest_, blocks_[i].hardest);
-        foresees_ |= blocks_[i].foresees;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::vector<Outcome>& outcomes = blocks_[i].outcomes;
-        for (std::size_t k = 0; k < outcomes.size(); ++k) {
-            if (k + kPrefetched < outcomes.size()) collider.prefetchKnown(outcomes[k + kPrefetched].contact);
-            settle(collider, outcomes[k], resolve);
-        }
-    }
+    });
+    return count;
 }
 
 /// Writes constraints anew, those of single precision eight at a time.
@@ -181,8 +173,7 @@ void Solver<Real>::listDue(Collider& collider, Block& block)
         for (std::uint32_t rest = due[group - block.first]; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
             const RigidContact* contact = &contacts[colour.index[group * kWidth + lane]];
-            __builtin_prefetch(contact, 1);
-            __builtin_prefetch(reinterpret_cast<const char*>(contact) + 64, 1);
+            prefetchToWrite(contact), prefetchToWrite(reinterpret_cast<const char*>(contact) + 64);
             for (const std::int32_t far : {g.a[lane], g.b[lane]})
                 if (far != 0) __builtin_prefetch(&poses[domains_.bodyAt(slotAt<Real>(far))]);
         }
@@ -203,7 +194,7 @@ void Solver<Real>::listDue(Collider& collider, Block& block)
 }
 
 template <class Real>
-void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Block& block)
+void Solver<Real>::refreshPlaced(Collider& collider, double dt, bool resolve, Block& block)
 {
     listDue(collider, block);
     collider.update(block.due, block.looks, dt);
@@ -216,34 +207,30 @@ void Solver<Real>::refreshBlock(Collider& collider, double dt, bool resolve, Blo
             rewriter.add(c, collider.places()[block.due[i]]);
             block.hardest = std::max(block.hardest, look.speed);
         } else {
-            block.outcomes.push_back({block.due[i], look.kept});
+            block.outcomes.push_back({block.due[i], nodeOf(block.colour), look.kept, false});
         }
     }
     rewriter.finish();
 }
 
 template <class Real>
-void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve)
+void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve, std::size_t first, std::size_t last,
+                               Block& block)
 {
-    const std::size_t size = collider.contacts().size(), blocks = (size + kIdleABlock - 1) / kIdleABlock;
-    for (std::size_t i = 0; i < blocks; ++i) blockAt(i);
-    pool_->run(blocks, [&](std::size_t i) {
-        refreshIdle(collider, dt, i * kIdleABlock, std::min(size, (i + 1) * kIdleABlock), blocks_[i]);
-    });
-    settleBlocks(collider, blocks, resolve);
-}
-
-template <class Real>
-void Solver<Real>::refreshIdle(Collider& collider, double dt, std::size_t first, std::size_t last, Block& block)
-{
-    // Which are due follows no pattern: none is jumped over.
+    // Which are idle, and which of them due, follows no pattern: none is jumped over. Nothing is read of the others, as
+    // they are looked at beside this.
     block.due.resize(last - first);
     Index* const list = block.due.data();
     const Place* const places = collider.places().data();
-    std::size_t due = 0;
+    std::size_t idle = 0, due = 0;
     for (auto contact = static_cast<Index>(first); contact < last; ++contact) {
+        list[idle] = contact;
+        idle += static_cast<std::size_t>(places[contact] == kIdle);
+    }
+    for (std::size_t i = 0; i < idle; ++i) {
+        const Index contact = list[i];
         list[due] = contact;
-        due += static_cast<std::size_t>(places[contact] == kIdle) & static_cast<std::size_t>(collider.nears(contact));
+        due += static_cast<std::size_t>(collider.nears(contact));
     }
     std::size_t left = 0;
     for (std::size_t at = 0; at < due; at += Sieve::kPairs) {
@@ -260,53 +247,13 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, std::size_t first,
         const Collider::Look& look = block.looks[i];
         const RigidContact& c = collider.contacts()[block.due[i]];
         block.foresees |= look.hits;
-        if (!look.kept || c.touching || c.count > 0) block.outcomes.push_back({block.due[i], look.kept});
+        if (look.kept && !c.touching && c.count == 0) continue;
+        const RigidBody &a = collider.bodies()[c.bodyA], &b = collider.bodies()[c.bodyB];
+        const bool pushes = look.kept && c.count > 0 && c.resolve && resolve;
+        block.bounces |= pushes && c.restitution > 0;
+        block.outcomes.push_back(
+            {block.due[i], nodeOf(c.bodyA, a.moves, c.bodyB, b.moves), look.kept, pushes && (a.asleep || b.asleep)});
     }
-}
-
-template <class Real>
-void Solver<Real>::change(RigidContact& c, bool touching)
-{
-    if (c.touching == touching) return;
-    c.touching = touching;
-    changes_.push_back({c.bodyA, c.bodyB, touching, c.stepImpulse});
-}
-
-template <class Real>
-void Solver<Real>::settle(Collider& collider, const Outcome& outcome, bool resolve)
-{
-    RigidContact& c = collider.contacts()[outcome.contact];
-    const bool placed = isPlaced(collider.places()[outcome.contact]);
-    const bool pushes = c.resolve && resolve;
-    if (outcome.kept && c.count > 0 && pushes) {
-        if (!collider.rouses(c) && !placed) admit(collider, outcome.contact);
-        return;
-    }
-    if (placed) remove(collider, outcome.contact);
-    c.stepImpulse = 0;
-    change(c, outcome.kept && c.nearest() <= c.slop);
-    if (!outcome.kept) collider.forget(outcome.contact);
-}
-
-template <class Real>
-void Solver<Real>::admit(Collider& collider, Index contact)
-{
-    const RigidContact& c = collider.contacts()[contact];
-    const auto& bodies = collider.bodies();
-    const std::size_t which = colourOf(c.bodyA, bodies[c.bodyA].moves, c.bodyB, bodies[c.bodyB].moves, taken_);
-    Colour& colour = colours_[which];
-    if (c.restitution > 0 && !bounces_) {
-        bounces_ = true;
-        for (Colour& each : colours_) each.bounces.resize(each.contacts.size(), BounceLanes<Real>{});
-    }
-    addLane(colour, isLast(which));
-    const std::size_t at = colour.count - 1;
-    colour.index[at] = contact;
-    if (c.touching) colour.touched[at / kWidth] |= 1U << (at % kWidth);
-    const Place place = placeOf(which, at);
-    collider.places()[contact] = place;
-    write(collider, c, place);
-    hardest_ = std::max(hardest_, collider.hitSpeed(c));
 }
 
 template <class Real>
@@ -347,55 +294,6 @@ void Solver<Real>::moveLane(Collider& collider, Colour& colour, std::size_t from
     copyLane(colour, from, colour, to, bounces_);
     const auto which = static_cast<std::size_t>(&colour - colours_.data());
     if (colour.index[to] != kNone) collider.places()[colour.index[to]] = placeOf(which, to);
-}
-
-/// The last lane takes its place, and is wiped out where it was.
-template <class Real>
-void Solver<Real>::remove(Collider& collider, Index contact)
-{
-    const Place place = collider.places()[contact];
-    const std::size_t which = place >> kLaneBits;
-    Colour& colour = colourAt(place);
-    const RigidContact& c = collider.contacts()[contact];
-    fetch(collider.contacts()[contact], place);
-    if (!isLast(which))
-        for (const Index body : {c.bodyA, c.bodyB}) takenOf(taken_, body, nodeOf(which)) &= ~(1U << which % kColours);
-    const std::size_t last = colour.count - 1, at = laneAt(place);
-    if (at != last) moveLane(collider, colour, last, at);
-    collider.places()[contact] = kIdle;
-    const bool alone = isLast(which);
-    if (last % kWidth == 0) {
-        colour.contacts.pop_back(), colour.frictions.pop_back(), colour.touched.pop_back(), colour.touches.pop_back();
-        if (bounces_) colour.bounces.pop_back();
-        colour.index.resize(colour.contacts.size() * kWidth);
-        colour.count = alone && last > 0 ? last - kWidth + 1 : last;
-        return;
-    }
-    --colour.count;
-    colour.index[last] = kNone;
-    colour.touched[last / kWidth] &= ~(1U << (last % kWidth));
-    const std::size_t lane = last % kWidth;
-    const auto clear = [lane](Lanes<Real>& lanes) { lanes[lane] = 0; };
-    ContactLanes<Real>& g = colour.contacts[last / kWidth];
-    FrictionLanes<Real>& f = colour.frictions[last / kWidth];
-    g.a[lane] = g.b[lane] = 0;
-    clear(g.normalX), clear(g.normalY), clear(g.mostPush), clear(f.friction);
-    for (int k = 0; k < 2; ++k) {
-        clear(g.points[k].leverA), clear(g.points[k].leverB), clear(g.points[k].separation);
-        clear(g.points[k].now), clear(g.points[k].mass), clear(g.points[k].impulse);
-        clear(f.points[k].leverA), clear(f.points[k].leverB), clear(f.points[k].mass), clear(f.points[k].impulse);
-        clear(f.points[k].total);
-    }
-    if (!bounces_) return;
-    BounceLanes<Real>& r = colour.bounces[last / kWidth];
-    clear(r.restitution);
-}
-
-template <class Real>
-void Solver<Real>::suspend(Collider& collider, Index contact)
-{
-    if (isPlaced(collider.places()[contact])) remove(collider, contact);
-    collider.places()[contact] = kAsleep;
 }
 
 /// Frozen until the contact is looked at again: normal, levers and masses.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMarkedABlock = 1024;  // contacts
 constexpr std::size_t kBodiesABlock = 128;
-constexpr int kPasses = 1, kHeld = 2;  // marks of those whose bodies may pass, of those with a body held back
+constexpr float kGivesWay = 2;
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
 
@@ -99,10 +99,9 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
 }
 
 /// The next contact of a hit; when bodies are surprised, any.
-std::size_t Collider::nextHit(std::size_t from) const { return surprised_ ? from : nextMarked(from); }
-
-std::size_t Collider::nextMarked(std::size_t from) const
+std::size_t Collider::nextHit(std::size_t from) const
 {
+    if (surprised_) return from;
     for (std::uint64_t eight = 0; from + sizeof eight <= hits_.size(); from += sizeof eight) {
         std::memcpy(&eight, &hits_[from], sizeof eight);
         if (eight != 0) break;
@@ -170,62 +169,74 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
 {
     allowed.assign(bodies_.size(), 1.0F);
     if (contacts_.empty()) return;
-    moved_.resize(bodies_.size());
+    going_.resize(bodies_.size());
     std::atomic<float> farthest = 0;
     pool.ranges(bodies_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
         float most = 0;
         for (auto i = static_cast<Index>(std::max<std::size_t>(first, 1)); i < last; ++i) {
-            moved_[i] = {static_cast<float>(moves[i].x()), static_cast<float>(moves[i].y())};
-            most = std::max({most, std::abs(moved_[i].x), std::abs(moved_[i].y)});
+            const Vec2f move{static_cast<float>(moves[i].x()), static_cast<float>(moves[i].y())};
+            most = std::max({most, std::abs(move.x), std::abs(move.y)});
             if (bodies_[i].moves) allowed[i] = withinBox(i, moves[i], dt);
+            going_[i] = {move, allowed[i]};
         }
         float before = farthest.load(std::memory_order_relaxed);
         while (before < most && !farthest.compare_exchange_weak(before, most, std::memory_order_relaxed)) {
         }
     });
     const float dropped = 1e-6F * farthest.load(std::memory_order_relaxed);  // the digits that single precision drops
-    pool.ranges(contacts_.size(), kMarkedABlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const Nearing& n = nearing_[i];
-            const Vec2f rough = moved_[n.bodyB] - moved_[n.bodyA];
-            const float most = 0.9999F * n.thin - dropped;
-            const bool passes = !(most > 0) | !(dot(rough, rough) <= most * most);
-            const bool held = (allowed[n.bodyA] < 1) | (allowed[n.bodyB] < 1);
-            hits_[i] = static_cast<std::uint8_t>((passes ? kPasses : 0) | (held ? kHeld : 0));
-        }
+    const std::size_t blocks = (contacts_.size() + kMarkedABlock - 1) / kMarkedABlock;
+    if (stopsBy_.size() < blocks) stopsBy_.resize(blocks);
+    const Moves all{moves, turns, dropped, dt};
+    pool.run(blocks, [&](std::size_t block) {
+        stopsBy_[block].clear();
+        const std::size_t last = std::min(contacts_.size(), (block + 1) * kMarkedABlock);
+        findStops(block * kMarkedABlock, last, all, stopsBy_[block]);
     });
     // What another moving body has hit must give way to it.
-    for (std::size_t i = nextMarked(0); i < contacts_.size(); i = nextMarked(i + 1)) {
-        const RigidContact& c = contacts_[i];
-        if ((hits_[i] & kHeld) == 0 || places_[i] == kFree || c.count == 0) continue;
-        if (poses_[c.bodyA].travel > 0 && poses_[c.bodyB].travel > 0) allowed[c.bodyA] = allowed[c.bodyB] = 1;
-    }
-    for (std::size_t i = nextMarked(0); i < contacts_.size(); i = nextMarked(i + 1)) {
-        if ((hits_[i] & kPasses) == 0) continue;
+    for (std::size_t block = 0; block < blocks; ++block)
+        for (const Stop& stop : stopsBy_[block])
+            if (stop.part > 1) allowed[stop.bodyA] = allowed[stop.bodyB] = 1;
+    for (std::size_t block = 0; block < blocks; ++block)
+        for (const Stop& stop : stopsBy_[block])
+            for (const Index body : {stop.bodyA, stop.bodyB})
+                if (stop.part <= 1 && bodies_[body].moves) allowed[body] = std::min(allowed[body], stop.part);
+}
+
+/// Of contacts [first, last), in an order that does not matter.
+void Collider::findStops(std::size_t first, std::size_t last, const Moves& all, std::vector<Stop>& stops) const
+{
+    for (std::size_t i = first; i < last; ++i) {
         const Nearing& n = nearing_[i];
-        const Vec2 relativeMove = moves[n.bodyB] - moves[n.bodyA];
-        if (!(relativeMove.squaredNorm() > static_cast<double>(n.thin) * static_cast<double>(n.thin))) continue;
+        const Going &a = going_[n.bodyA], &b = going_[n.bodyB];
+        const Vec2f rough = b.move - a.move;
+        const float most = 0.9999F * n.thin - all.dropped;
+        const bool passes = !(most > 0) | !(dot(rough, rough) <= most * most);
+        const bool held = (a.allowed < 1) | (b.allowed < 1);
+        if (!(passes | held) || places_[i] == kFree) continue;
         const RigidContact& c = contacts_[i];
-        if (places_[i] == kFree || !c.resolve) continue;
-        if (fromBehind(c)) continue;
-        if (c.nearest() <= 0) {
-            const float part = c.count > 0 ? untilCentrePasses(c, relativeMove) : 1.0F;
-            for (const Index body : {c.bodyA, c.bodyB})
-                if (bodies_[body].moves) allowed[body] = std::min(allowed[body], part);
-            continue;
-        }
-        Pose a = poses_[c.bodyA], b = poses_[c.bodyB];
-        const auto actual = [&](Pose& pose, Index body) {
-            pose.velocityX = clamped(moves[body].x() / dt), pose.velocityY = clamped(moves[body].y() / dt);
-            pose.omega = clamped(turns[body] / dt);
-        };
-        actual(a, c.bodyA), actual(b, c.bodyB);
-        // A little deeper than contacts come by themselves.
-        const float hit = timeOfImpact(parts_[c.partA], parts_[c.partB], a, b, dt, -2 * c.slop, *looker_);
-        if (hit > 1 || hit <= 0) continue;  // lies in it already: to be pushed out, not to be held
-        for (const Index body : {c.bodyA, c.bodyB})
-            if (bodies_[body].moves) allowed[body] = std::min(allowed[body], hit);
+        if (held && c.count > 0 && poses_[c.bodyA].travel > 0 && poses_[c.bodyB].travel > 0)
+            stops.push_back({c.bodyA, c.bodyB, kGivesWay});
+        const float part = passes ? untilPassed(c, n.thin, all) : 1;
+        if (part < 1) stops.push_back({c.bodyA, c.bodyB, part});
     }
+}
+
+/// The part of their moves after which the two would pass through each other.
+float Collider::untilPassed(const RigidContact& c, float thin, const Moves& all) const
+{
+    const Vec2 relativeMove = all.moves[c.bodyB] - all.moves[c.bodyA];
+    if (!(relativeMove.squaredNorm() > static_cast<double>(thin) * static_cast<double>(thin))) return 1;
+    if (!c.resolve || fromBehind(c)) return 1;
+    if (c.nearest() <= 0) return c.count > 0 ? untilCentrePasses(c, relativeMove) : 1;
+    Pose a = poses_[c.bodyA], b = poses_[c.bodyB];
+    const auto actual = [&](Pose& pose, Index body) {
+        pose.velocityX = clamped(all.moves[body].x() / all.dt), pose.velocityY = clamped(all.moves[body].y() / all.dt);
+        pose.omega = clamped(all.turns[body] / all.dt);
+    };
+    actual(a, c.bodyA), actual(b, c.bodyB);
+    // A little deeper than contacts come by themselves.
+    const float hit = timeOfImpact(parts_[c.partA], parts_[c.partB], a, b, all.dt, -2 * c.slop, *looker_);
+    return hit > 0 ? hit : 1;  // 0: lies in it already: to be pushed out, not to be held
 }
 
 }  // namespace jet::physics

@@ -12,6 +12,8 @@
 #include "snapshot.hpp"
 #include "state.hpp"
 
+#include <type_traits>
+
 namespace jet::physics {
 
 class Domains {
@@ -75,9 +77,27 @@ public:
     template <class Work>
     void eachBody(Pool& pool, Work&& work) const
     {
-        if (depth_ > 0 && !mixed_ && pool.threads() > 1) {
+        eachBody(pool, work, nullptr);
+    }
+    /// The same; where there are several threads, ask(body, slot) comes some bodies before work() does, to ask for
+    /// memory that another may have.
+    template <class Work, class Ask>
+    void eachBody(Pool& pool, Work&& work, Ask&& ask) const
+    {
+        const std::size_t count = std::max<std::size_t>(count_, 1);
+        if (pool.threads() <= 1) {
+            for (Index body = 1; body < count; ++body) work(body, slotOf(body));
+            return;
+        }
+        const auto askFor = [&](Index body, Index slot) {
+            if constexpr (!std::is_null_pointer_v<std::remove_cvref_t<Ask>>) ask(body, slot);
+        };
+        if (depth_ > 0 && !mixed_) {
             const auto range = [&](std::size_t first, std::size_t last) {
-                for (auto slot = static_cast<Index>(first); slot < last; ++slot) work(bodies_[slot], slot);
+                for (auto slot = static_cast<Index>(first); slot < last; ++slot) {
+                    if (slot + kAhead < last) askFor(bodies_[slot + kAhead], slot + kAhead);
+                    work(bodies_[slot], slot);
+                }
             };
             // Each domain begins elsewhere, so that threads do not go side by side through the same lines.
             pool.run(leaves(), [&](std::size_t i) {
@@ -90,8 +110,11 @@ public:
                         [&](std::size_t first, std::size_t last) { range(rest.first + first, rest.first + last); });
             return;
         }
-        pool.ranges(std::max<std::size_t>(count_, 1) - 1, kBlock, [&](std::size_t first, std::size_t last) {
-            for (auto body = static_cast<Index>(first + 1); body <= last; ++body) work(body, slotOf(body));
+        pool.ranges(count - 1, kBlock, [&](std::size_t first, std::size_t last) {
+            for (auto body = static_cast<Index>(first + 1); body <= last; ++body) {
+                if (body + kAhead <= last) askFor(body + kAhead, slotOf(body + kAhead));
+                work(body, slotOf(body));
+            }
         });
     }
 
@@ -115,6 +138,7 @@ public:
 
 private:
     static constexpr std::size_t kStretch = 8;  // bodies side by side that one domain has, on average; less is mixed
+    static constexpr Index kAhead = 10;         // bodies
     static constexpr Index kGap = 4;            // slots between domains: two lines, as processors fetch pairs of them
     struct Item {
         Body at;

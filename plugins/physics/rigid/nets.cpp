@@ -13,6 +13,8 @@ namespace {
 constexpr double kReserve = 0.05;  // of the kinetic energy
 constexpr double kAttention = 1;   // seconds
 constexpr std::size_t kFew = 512;
+constexpr Index kPiece = 128;       // bodies
+constexpr std::size_t kShared = 8;  // pieces: fewer are not worth a second thread
 
 template <class Real>
 Vec2 velocityOf(const BodyState<Real>& s)
@@ -42,9 +44,14 @@ Index Nets::netOf(const Joint& joint, const std::vector<RigidBody>& bodies) cons
     return takesPart(joint, bodies) ? netAt_[movesNow(bodies[joint.a]) ? joint.a : joint.b] : kNone;
 }
 
-/// Nets in the order of their first joints.
-void Nets::gather(const std::vector<Joint>& joints, const std::vector<RigidBody>& bodies)
+/// Nets in the order of their first joints. Which there are follows from the joints and from what takes part.
+void Nets::gather(const std::vector<Joint>& joints, const std::vector<RigidBody>& bodies, std::uint64_t version)
 {
+    if (version_ == version && netAt_.size() == bodies.size()) {
+        for (Net& net : nets_) net = Net{net.joint, net.body, net.anchored};
+        return;
+    }
+    version_ = version;
     group_.resize(bodies.size());
     std::iota(group_.begin(), group_.end(), Index{0});
     netAt_.assign(bodies.size(), kNone);
@@ -65,6 +72,47 @@ void Nets::gather(const std::vector<Joint>& joints, const std::vector<RigidBody>
         nets_[netAt_[root]].anchored |= !movesA || !movesB || joint.def.kind == JointDef::Kind::Pulley;
         if (movesA) netAt_[joint.a] = netAt_[root];
         if (movesB) netAt_[joint.b] = netAt_[root];
+    }
+    cut();
+}
+
+/// Their bodies, net by net, in pieces.
+void Nets::cut()
+{
+    std::vector<Index> first(nets_.size() + 1, 0);
+    for (const Index net : netAt_)
+        if (net != kNone) ++first[net + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    members_.resize(first.back()), pieces_.clear();
+    std::vector<Index> next = first;
+    for (Index body = 0; body < netAt_.size(); ++body)
+        if (netAt_[body] != kNone) members_[next[netAt_[body]]++] = body;
+    for (Index net = 0; net < nets_.size(); ++net)
+        for (Index at = first[net]; at < first[net + 1]; at += kPiece)
+            pieces_.push_back({net, at, std::min(at + kPiece, first[net + 1])});
+}
+
+/// Sums of pieces are added in the order of the pieces, whoever found them.
+template <class Real>
+void Nets::addEnergies(const Step<Real>& step)
+{
+    auto find = [&](std::size_t i) {
+        Piece& piece = pieces_[i];
+        piece.after = piece.allowed = piece.jolt = 0;
+        for (Index at = piece.first; at < piece.last; ++at) {
+            const Budget& budget = step.budgets[members_[at]];
+            piece.after += kineticEnergy(step.solver.body(members_[at]));
+            piece.allowed += budget.energy, piece.jolt += budget.jolt;
+        }
+    };
+    if (pieces_.size() < kShared) {
+        for (std::size_t i = 0; i < pieces_.size(); ++i) find(i);
+    } else {
+        step.pool.run(pieces_.size(), find);
+    }
+    for (const Piece& piece : pieces_) {
+        Net& net = nets_[piece.net];
+        net.after += piece.after, net.allowed += piece.allowed, net.jolt += piece.jolt;
     }
 }
 
@@ -131,26 +179,27 @@ void Nets::allowExchange(const Step<Real>& step)
         }
     };
     bool any = false;
+    islands_ = group_;
     eachPush([&](const RigidContact& c, double) {
         any = true;
-        if (movesNow(bodies[c.bodyA]) && movesNow(bodies[c.bodyB])) unite(group_, c.bodyA, c.bodyB);
+        if (movesNow(bodies[c.bodyA]) && movesNow(bodies[c.bodyB])) unite(islands_, c.bodyA, c.bodyB);
     });
     if (!any) return;
     gained_.assign(bodies.size(), 0);
     for (Index i = 1; i < bodies.size(); ++i)
         if (movesNow(bodies[i]) && bodies[i].enabled && netAt_[i] == kNone)
-            gained_[rootOf(group_, i)] += kineticEnergy(solver.body(i)) - step.budgets[i].energy;
-    for (const Net& net : nets_) gained_[rootOf(group_, net.body)] += net.after - net.allowed;
+            gained_[rootOf(islands_, i)] += kineticEnergy(solver.body(i)) - step.budgets[i].energy;
+    for (const Net& net : nets_) gained_[rootOf(islands_, net.body)] += net.after - net.allowed;
     eachPush([&](const RigidContact& c, double impulse) {
         for (const auto& [driver, other] : {std::pair(c.bodyA, c.bodyB), std::pair(c.bodyB, c.bodyA)}) {
             if (!bodies[driver].kinematic || !movesNow(bodies[other])) continue;
             const BodyState<Real>& s = solver.body(driver);
             const double speed = std::hypot(static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)) +
                                  std::abs(static_cast<double>(s.omega())) * static_cast<double>(bodies[driver].reach);
-            gained_[rootOf(group_, other)] -= speed * impulse * (1 + static_cast<double>(c.friction));
+            gained_[rootOf(islands_, other)] -= speed * impulse * (1 + static_cast<double>(c.friction));
         }
     });
-    for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, gained_[rootOf(group_, net.body)]));
+    for (Net& net : nets_) net.excess = std::clamp(net.excess, 0.0, std::max(0.0, gained_[rootOf(islands_, net.body)]));
 }
 
 /// What is held by something that moves by itself may be thrown at twice its speed.
@@ -241,11 +290,8 @@ void Nets::takeExcess(const Step<Real>& step)
 template <class Real>
 void Nets::restrain(const Step<Real>& step)
 {
-    gather(step.joints, step.bodies());
-    eachBody(step, [&](Index i, Net& net, const BodyState<Real>& s) {
-        const Budget& budget = step.budgets[i];
-        net.after += kineticEnergy(s), net.allowed += budget.energy, net.jolt += budget.jolt;
-    });
+    gather(step.joints, step.bodies(), step.version);
+    addEnergies(step);
     addWork(step);
     if (!settle()) return;
     allowExchange(step);

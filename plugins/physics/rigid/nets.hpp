@@ -35,6 +35,8 @@ public:
         const Collider& collider;
         std::vector<Joint>& joints;
         std::span<const Budget> budgets;  // [bodies]
+        std::uint64_t version;            // of the joints, and of which bodies take part
+        Pool& pool;
 
         const std::vector<RigidBody>& bodies() const { return collider.bodies(); }
     };
@@ -70,11 +72,20 @@ private:
         double kept = 1;    // part of the motion within that stays
     };
 
+    /// Some bodies of a net, and the sums of what it has of them.
+    struct Piece {
+        Index net = 0, first = 0, last = 0;  // members [first, last)
+        double after = 0, allowed = 0, jolt = 0;
+    };
+
     static bool takesPart(const Joint&, const std::vector<RigidBody>&);
-    void gather(const std::vector<Joint>&, const std::vector<RigidBody>&);
+    void gather(const std::vector<Joint>&, const std::vector<RigidBody>&, std::uint64_t version);
+    void cut();
     Index netOf(const Joint&, const std::vector<RigidBody>&) const;
     template <class Real, class Work>
     void eachBody(const Step<Real>&, Work&& work);
+    template <class Real>
+    void addEnergies(const Step<Real>&);
     template <class Real>
     void addWork(const Step<Real>&);
     bool settle();
@@ -91,10 +102,14 @@ private:
 
     double attention_ = 0;  // seconds for which it goes on looking
     std::vector<Ledger> ledgers_, former_;
-    // Of one step.
+    // Of one step; which nets there are, and who is in them, of as long as the version is the same.
+    std::uint64_t version_ = 0;
     std::vector<Net> nets_;
     std::vector<Index> group_;    // [bodies]
     std::vector<Index> netAt_;    // [bodies] kNone: in none
+    std::vector<Index> members_;  // bodies, net by net
+    std::vector<Piece> pieces_;
+    std::vector<Index> islands_;  // [bodies] nets that push each other
     std::vector<double> gained_;  // [bodies] of their islands, at the roots
 };
 

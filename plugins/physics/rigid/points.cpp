@@ -83,7 +83,7 @@ Collider::Look Collider::update(RigidContact& c, double dt)
 /// What overlaps from a hit before is hit again.
 bool Collider::noteHit(const RigidContact& c, bool fast)
 {
-    const bool hits = c.foreseen || (fast && fast_ && c.nearest() <= 0);
+    const bool hits = c.foreseen || (fast && bool(fast_) && c.nearest() <= 0);
     if (hits) hits_[static_cast<std::size_t>(&c - contacts_.data())] = 1;
     return hits;
 }

@@ -66,14 +66,41 @@ public:
             [&](std::size_t block) { work(block * size, std::min(count, (block + 1) * size)); });
     }
 
+    /// Two loops at once: each thread has its share of both.
+    template <class First, class Second>
+    void both(std::size_t first, First&& one, std::size_t second, Second&& other)
+    {
+        const std::size_t blocks = first + second, threads = static_cast<std::size_t>(used_);
+        run(blocks, [&](std::size_t block) {
+            std::size_t share = 0;
+            while ((share + 1) * blocks / threads <= block) ++share;
+            const std::size_t begin = share * blocks / threads, from = share * first / threads,
+                              to = (share + 1) * first / threads;
+            if (block - begin < to - from) {
+                one(from + (block - begin));
+            } else {
+                other(block - to);
+            }
+        });
+    }
+    /// A loop, and beside it something that one thread does; one after the other where the loop is short.
+    template <class Work, class Other>
+    void beside(std::size_t blocks, Work&& work, Other&& other)
+    {
+        if (used_ > 1 && blocks > 1) return both(blocks, work, 1, [&](std::size_t) { other(); });
+        for (std::size_t block = 0; block < blocks; ++block) work(block);
+        other();
+    }
+
 private:
+    using Clock = std::chrono::steady_clock;
     using Call = void (*)(void*, std::size_t);
     static constexpr std::uint64_t kTask = std::uint64_t{1} << 32;
     struct Share;
     void beginStep();
     void endStep();
     void fork(Call, void* what, std::size_t blocks);
-    void await(std::size_t blocks, std::chrono::steady_clock::time_point since);
+    void await(std::size_t blocks, Clock::time_point since);
     void start();
     void stop();
     void serve(std::size_t self);
@@ -81,9 +108,9 @@ private:
     std::size_t finishOthers(std::size_t self);
     bool isNew(std::size_t self, std::uint64_t seen) const { return shares_[self].ticket.load() / kTask != seen; }
 
-    /// A thread's blocks of the task, in one line of memory. The last are taken first. What is beside the ticket is
-    /// written before it, and read by those who have got a block.
-    struct alignas(64) Share {
+    /// A thread's blocks of the task, in one line of memory, and none beside it, as lines come in pairs. The last are
+    /// taken first. What is beside the ticket is written before it, and read by those who have got a block.
+    struct alignas(128) Share {
         std::size_t first = 0;
         Call call = nullptr;
         void* what = nullptr;
@@ -97,9 +124,11 @@ private:
     std::vector<std::thread> workers_;
     std::vector<Share> shares_;  // [threads]
     std::uint64_t task_ = 0;
+    Clock::time_point ended_;                       // the last step
     alignas(64) std::atomic<std::size_t> done_{0};  // blocks
     alignas(64) std::atomic<int> sleeping_{0};
     std::atomic<bool> attended_{false};
+    std::atomic<Clock::duration> patience_{};  // between steps
     std::atomic<bool> stopping_{false};
     std::mutex mutex_;
     std::condition_variable wake_;

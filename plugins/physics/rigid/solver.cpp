@@ -13,7 +13,7 @@ constexpr double kJointHertz = 80, kJointHertzPerSubstepRate = 1.0 / 3, kJointDa
 constexpr int kRelaxPasses = 2;
 constexpr int kJointPushPasses = 2;  // chains of joints carry forces far
 constexpr int kBouncePasses = 2;
-constexpr std::size_t kNodesABlock = 1024;
+constexpr std::size_t kNodesABlock = 256;
 
 template <class Real>
 Softness<Real> softness(double hertz, double dampingRatio, double h)
@@ -284,46 +284,54 @@ void Solver<Real>::bounce()
 }
 
 template <class Real>
-void Solver<Real>::turn(Nodes& nodes) const
+void Solver<Real>::turn(Nodes& nodes, const std::function<void()>& beside) const
 {
     const std::vector<double>& angles = nodes.angle.values();
     std::vector<Vec2>& directions = nodes.rotation.values();
-    pool_->ranges(angles.size(), kNodesABlock, [&](std::size_t first, std::size_t last) {
+    const auto turnBlock = [&](std::size_t block) {
+        const std::size_t first = block * kNodesABlock, last = std::min(angles.size(), first + kNodesABlock);
         if (kernels_->turnBodies(&angles[first], directions[first].data(), last - first)) return;
         for (std::size_t i = first; i < last; ++i) directions[i] = direction(angles[i]);
-    });
+    };
+    pool_->beside((angles.size() + kNodesABlock - 1) / kNodesABlock, turnBlock, beside);
 }
 
 template <class Real>
 void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
 {
     collider.settled();
-    for (auto& flips : flips_) flips.clear();  // those of nodes too that an earlier division had
     eachNode([&](Node node) {
+        std::vector<TouchChange>& changes = settling_[node].changes;
+        changes.clear();
         eachColour(node, [&](Colour& c) {
             kernels_->carryContacts(c.contacts.data(), c.frictions.data(), c.touches.data(), c.contacts.size());
-            const auto colour = static_cast<std::uint32_t>(&c - colours_.data());
-            for (std::uint32_t group = 0; group < c.touches.size(); ++group)
-                if (c.touches[group] != c.touched[group]) flips_[node].push_back({colour, group});
+            for (std::size_t group = 0; group < c.touches.size(); ++group)
+                if (c.touches[group] != c.touched[group]) noteFlip(collider, c, group, changes);
         });
     });
-    for (const auto& flips : flips_)
-        for (const Flip& flip : flips) noteFlip(collider, flip);
+    noteChanges();
     keepRows(joints);
+}
+
+/// Those of all nodes.
+template <class Real>
+void Solver<Real>::noteChanges()
+{
+    for (std::size_t node = 1; node < 2 * domains_.leaves(); ++node)
+        changes_.insert(changes_.end(), settling_[node].changes.begin(), settling_[node].changes.end());
 }
 
 /// Contacts of a group that began or ceased to touch.
 template <class Real>
-void Solver<Real>::noteFlip(Collider& collider, const Flip& flip)
+void Solver<Real>::noteFlip(Collider& collider, Colour& colour, std::size_t group, std::vector<TouchChange>& changes)
 {
-    Colour& colour = colours_[flip.colour];
-    std::uint32_t& touched = colour.touched[flip.group];
-    const std::uint32_t touches = colour.touches[flip.group];
+    std::uint32_t& touched = colour.touched[group];
+    const std::uint32_t touches = colour.touches[group];
     for (std::uint32_t rest = touches ^ touched; rest != 0; rest &= rest - 1) {
-        const std::size_t at = flip.group * kWidth + static_cast<std::size_t>(__builtin_ctz(rest));
+        const std::size_t at = group * kWidth + static_cast<std::size_t>(__builtin_ctz(rest));
         RigidContact& c = collider.contacts()[colour.index[at]];
         fetch(c, collider.places()[colour.index[at]]);
-        change(c, (touches >> (at % kWidth) & 1U) != 0);
+        change(c, (touches >> (at % kWidth) & 1U) != 0, changes);
     }
     touched = touches;
 }

@@ -8,6 +8,7 @@
 #include "collider.hpp"
 #include "domains.hpp"
 #include "joint.hpp"
+#include "sharing.hpp"
 #include "snapshot.hpp"
 #include "solver_data.hpp"
 
@@ -20,8 +21,9 @@ namespace jet::physics {
 struct StepShape {
     double h = 0;  // seconds a substep
     int substeps = 1;
-    double restSpeed = 0;                    // units / s
-    double linearKept = 1, angularKept = 1;  // velocity left by damping after a substep
+    double restSpeed = 0;  // units / s
+    double linearKept = 1,
+           angularKept = 1;  // velocity left by damping after a substep
     KernelChoice choice = KernelChoice::Best;
 };
 
@@ -50,7 +52,17 @@ public:
     template <class Work>
     void eachBody(Work&& work)
     {
-        domains_.eachBody(*pool_, [&](Index body, Index slot) { work(body, states_[slot]); });
+        domains_.eachBody(
+            *pool_, [&](Index body, Index slot) { work(body, states_[slot]); },
+            [&](Index, Index slot) { __builtin_prefetch(&states_[slot]); });
+    }
+    /// The same, which is to write the states.
+    template <class Work>
+    void setBodies(Work&& work)
+    {
+        domains_.eachBody(
+            *pool_, [&](Index body, Index slot) { work(body, states_[slot]); },
+            [&](Index, Index slot) { prefetchToWrite(&states_[slot]); });
     }
     /// After contacts were looked at: calls work(body, push) for all bodies, which is to fill them in.
     template <class Work>
@@ -58,7 +70,9 @@ public:
     {
         pushes_ = arena_->take<BodyPush<Real>>(domains_.slotCount());
         pushes_[0] = BodyPush<Real>();
-        domains_.eachBody(*pool_, [&](Index body, Index slot) { work(body, pushes_[slot]); });
+        domains_.eachBody(
+            *pool_, [&](Index body, Index slot) { work(body, pushes_[slot]); },
+            [&](Index, Index slot) { prefetchToWrite(&pushes_[slot]); });
     }
     const Domains& domains() const { return domains_; }
 
@@ -76,8 +90,9 @@ public:
     /// The impulses that their next step starts with.
     void scaleJoints(std::vector<Joint>&, const std::function<double(const Joint&)>& factor);
 
-    /// The nodes' directions follow from their angles, in a world where all of them are bodies.
-    void turn(Nodes&) const;
+    /// The nodes' directions follow from their angles, in a world where all of them are bodies. `beside` is called
+    /// once, maybe by another thread.
+    void turn(Nodes&, const std::function<void()>& beside) const;
 
     const StepShape& shape() const { return shape_; }
     /// Did errors of joints come to more than a small part of their arms?
@@ -145,9 +160,10 @@ private:
         std::vector<ContactLanes<Real>> contacts;
         std::vector<FrictionLanes<Real>> frictions;
         std::vector<BounceLanes<Real>> bounces;
-        std::vector<Index> index;                     // [lanes] of the contact; kNone
-        std::vector<std::uint32_t> touched, touches;  // [groups] lanes that touched before, that touch, as bits
-        std::size_t count = 0;                        // lanes in use
+        std::vector<Index> index;  // [lanes] of the contact; kNone
+        std::vector<std::uint32_t> touched,
+            touches;            // [groups] lanes that touched before, that touch, as bits
+        std::size_t count = 0;  // lanes in use
     };
     struct JointColour {
         std::vector<JointLanes<Real>> joints;
@@ -159,15 +175,18 @@ private:
     struct Rowed {
         Index joint, a, b;
     };
-    /// Groups whose lanes changed in what touches.
-    struct Flip {
-        std::uint32_t colour, group;
-    };
     using Node = Domains::Node;
     /// What became of a contact that was looked at.
     struct Outcome {
         Index contact;
-        bool kept;
+        Node node;    // that it belongs to
+        bool kept;    // false: the pair is forgotten
+        bool rouses;  // a sleeping body: that wakes first, and nothing else becomes of it
+    };
+    /// What the outcomes of a node leave to all; in a line of its own.
+    struct alignas(64) Settling {
+        std::vector<TouchChange> changes;
+        float hardest = 0;
     };
 
     /// Colours each body is in, as bits, on each level of the tree of domains that there is.
@@ -211,21 +230,20 @@ private:
         return taken.levels[Domains::levelOf(node)][body];
     }
     /// Groups [first, last) of a colour, or some contacts without points, and what was found of them.
-    struct Block {
-        std::uint32_t colour = 0, first = 0, last = 0;
+    struct alignas(64) Block {
+        std::vector<Outcome> outcomes;
         float hardest = 0;
-        bool foresees = false;
+        bool foresees = false, bounces = false;  // may any of the outcomes bounce?
+        std::uint32_t colour = 0, first = 0, last = 0;
         std::vector<Index> due;  // contacts to be looked at
         std::vector<Collider::Look> looks;
-        std::vector<Outcome> outcomes;
     };
-    void refreshPlaced(Collider&, double dt, bool resolve);
-    void refreshBlock(Collider&, double dt, bool resolve, Block&);
+    std::size_t listPlaced();
+    void refreshPlaced(Collider&, double dt, bool resolve, Block&);
     std::uint32_t dueLanes(const Colour&, std::size_t group, bool all) const;
     void listDue(Collider&, Block&);
     class Rewriter;
-    void refreshIdle(Collider&, double dt, bool resolve);
-    void refreshIdle(Collider&, double dt, std::size_t first, std::size_t last, Block&);
+    void refreshIdle(Collider&, double dt, bool resolve, std::size_t first, std::size_t last, Block&);
     void settleBlocks(Collider&, std::size_t count, bool resolve);
     Block& blockAt(std::size_t);
     /// Calls work(node), children before their parents, otherwise at once.
@@ -246,12 +264,14 @@ private:
     void moveToNodes(Collider&);
     static void copyLane(const Colour& from, std::size_t source, Colour& to, std::size_t target, bool bounces);
     static void clear(Colour&);
-    void settle(Collider&, const Outcome&, bool resolve);
-    void admit(Collider&, Index contact);
+    void forgetPairs(Collider&, std::size_t count);
+    void settleNode(Collider&, std::size_t count, Node, bool resolve);
+    void settle(Collider&, const Outcome&, bool resolve, Settling&);
+    void admit(Collider&, Index contact, Settling&);
     void remove(Collider&, Index contact);
     void addLane(Colour&, bool alone);
     void write(const Collider&, const RigidContact&, Place);
-    void change(RigidContact&, bool touching);
+    static void change(RigidContact&, bool touching, std::vector<TouchChange>&);
     void place(const Collider&);
     void moveLane(Collider&, Colour&, std::size_t from, std::size_t to);
     template <class Archive>
@@ -285,7 +305,8 @@ private:
     }
     void addJoint(const Joint&, Index index);
     void keepRows(std::vector<Joint>&);
-    void noteFlip(Collider&, const Flip&);
+    void noteChanges();
+    void noteFlip(Collider&, Colour&, std::size_t group, std::vector<TouchChange>&);
     void warmNode(Node);
     void turnNode(Node);
     void foreseeNode(Node);
@@ -316,12 +337,12 @@ private:
     bool anyPoint_ = false;            // has any joint a point?
     bool jointsTold_ = true;           // have the joints got the impulses of the last step?
     bool strained_[Domains::kNodes + 1] = {};
-    std::vector<Flip> flips_[Domains::kNodes + 1];
     std::span<float> drifts_;  // [slots] of the collider, in the arena
     Pool* pool_ = nullptr;
     Arena* arena_ = nullptr;
     std::vector<Block> blocks_;  // never shrinks, so that nothing is allocated in a steady step
     std::vector<TouchChange> changes_;
+    Settling settling_[Domains::kNodes + 1];
     double lastH_ = 0;  // seconds: the impulses are of substeps of this
     float hardest_ = 0;
     bool foresees_ = false;

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kSmallWorld = 512;  // bodies: worlds up to here are solved in double precision
 constexpr double kContactRate = 480;      // substeps a second of small worlds
 constexpr int kLargeSubsteps = 4;
-constexpr float kHitSmall = 0.08F, kHitLarge = 0.6F;  // lengths a substep that make a hit
+constexpr float kHitSmall = 0.08F,
+                kHitLarge = 0.6F;  // lengths a substep that make a hit
 constexpr int kHitPasses = 12;
 constexpr int kHitRounds = 3;
 
@@ -23,6 +24,12 @@ constexpr int kHitRounds = 3;
 int passesFor(float hardestHit, bool large, double h)
 {
     return hardestHit * static_cast<float>(h) > (large ? kHitLarge : kHitSmall) ? kHitPasses : 1;
+}
+
+/// Has the body moved by a quarter of its length, or more?
+bool isFar(const Vec2& move, const RigidBody& body)
+{
+    return !(move.squaredNorm() <= 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length));
 }
 
 double millisecondsSince(std::chrono::steady_clock::time_point start)
@@ -208,7 +215,7 @@ template <class Real>
 void RigidStage::load(Solver<Real>& solver, const State& state)
 {
     const Nodes& nodes = state.nodes;
-    std::atomic<bool> astray = false;
+    Flag astray;
     const auto take = [&](Index i, BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         const Index node = body.node;
@@ -219,13 +226,13 @@ void RigidStage::load(Solver<Real>& solver, const State& state)
         const bool turns = nodes.invMass[node] == 0 || nodes.invInertia[node] > 0;
         s.perGyration = turns ? 1 / static_cast<Real>(body.gyration) : 0;
         s.moveX = s.moveY = s.sweep = 0;
-        if (!body.moves && solver.isAstray(i)) astray = true;
+        if (!body.moves && solver.isAstray(i)) astray.raise();
     };
     solver.divide(collider_, state, joints_, false);
-    solver.eachBody(take);
+    solver.setBodies(take);
     if (!astray) return;
     solver.divide(collider_, state, joints_, true);
-    solver.eachBody(take);
+    solver.setBodies(take);
 }
 
 template <class Real>
@@ -251,7 +258,6 @@ void RigidStage::step(State& state, const WorldSettings& settings, double dt, St
     } else {
         solve(double_, state, settings, dt, stats);
     }
-    noteTouches(large ? single_.changes() : double_.changes());
     breakJoints();
 }
 
@@ -297,11 +303,11 @@ void RigidStage::restrain(Solver<Real>& solver, const State& state, double dt)
     if (joints_.empty() || !nets_.due(joints_.size(), solver.strained(), dt)) return;
     const auto& bodies = collider_.bodies();
     const Nodes& nodes = state.nodes;
-    budgets_.assign(bodies.size(), {});
-    for (Index i = 1; i < bodies.size(); ++i) {
-        const BodyState<Real>& s = solver.body(i);
-        budgets_[i].place = nodes.position[bodies[i].node] + Vec2(s.moveX, s.moveY);
-        if (s.invMass == 0 || !bodies[i].takesPart()) continue;
+    budgets_.resize(bodies.size());
+    solver.eachBody([&](Index i, const BodyState<Real>& s) {
+        Nets::Budget& budget = budgets_[i] = {};
+        budget.place = nodes.position[bodies[i].node] + Vec2(s.moveX, s.moveY);
+        if (s.invMass == 0 || !bodies[i].takesPart()) return;
         const BodyPush<Real>& force = solver.pushOf(i);
         const double k = bodies[i].gyration, mass = 1 / static_cast<double>(s.invMass);
         const Vec2 before = nodes.velocity[bodies[i].node], after(s.velocityX, s.velocityY);
@@ -309,11 +315,11 @@ void RigidStage::restrain(Solver<Real>& solver, const State& state, double dt)
         const Vec2 acceleration(force.accelerationX, force.accelerationY);
         const double power =
             acceleration.dot(before + after) + static_cast<double>(force.accelerationW) * (spun + spins);
-        budgets_[i].energy = mass / 2 * (before.squaredNorm() + spun * spun + dt * power);
-        budgets_[i].jolt =
+        budget.energy = mass / 2 * (before.squaredNorm() + spun * spun + dt * power);
+        budget.jolt =
             mass / 2 * dt * dt * (acceleration.squaredNorm() + std::pow(static_cast<double>(force.accelerationW), 2));
-    }
-    nets_.restrain(Nets::Step<Real>{solver, collider_, joints_, budgets_});
+    });
+    nets_.restrain(Nets::Step<Real>{solver, collider_, joints_, budgets_, jointsVersion_, pool_});
 }
 
 /// Moves the nodes, but nothing fast through what was not foreseen.
@@ -321,18 +327,17 @@ template <class Real>
 void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
 {
     Nodes& nodes = state.nodes;
-    const auto moveOf = [&](Index body, const BodyState<Real>& s) {
+    moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
+    Flag fast;
+    solver.eachBody([&](Index i, const BodyState<Real>& s) {
+        const RigidBody& body = collider_.bodies()[i];
         Vec2 move(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
-        double turn = static_cast<double>(s.sweep) / collider_.bodies()[body].gyration;
+        double turn = static_cast<double>(s.sweep) / body.gyration;
+        if (body.moves && isFar(move, body)) fast.raise();
         limitMove(move, turn, dt);
-        return std::pair(move, turn);
-    };
-    const bool fast = anyFast(solver);
-    if (fast) {
-        moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
-        solver.eachBody([&](Index i, const BodyState<Real>& s) { std::tie(moves_[i], turns_[i]) = moveOf(i, s); });
-        collider_.stopTunnelling(allowed_, moves_, turns_, dt, pool_);
-    }
+        moves_[i] = move, turns_[i] = turn;
+    });
+    if (fast) collider_.stopTunnelling(allowed_, moves_, turns_, dt, pool_);
     solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         if ((!body.moves && !body.kinematic) || body.asleep) return;
@@ -340,28 +345,12 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
         nodes.omega[body.node] = static_cast<double>(s.spin) / body.gyration;
         limitSpeed(nodes.velocity[body.node], nodes.omega[body.node]);
-        const auto [move, whole] = moveOf(i, s);
-        nodes.position[body.node] += part * move;
-        const double turn = part * whole;
-        collider_.travelled(i, part * move.norm() + std::abs(turn) * static_cast<double>(body.reach));
+        nodes.position[body.node] += part * moves_[i];
+        const double turn = part * turns_[i];
+        collider_.travelled(i, part * moves_[i].norm() + std::abs(turn) * static_cast<double>(body.reach));
         nodes.angle[body.node] += turn;
     });
-    solver.turn(nodes);
-}
-
-/// Has a body moved by a quarter of its length, or more?
-template <class Real>
-bool RigidStage::anyFast(Solver<Real>& solver)
-{
-    std::atomic<bool> any = false;
-    solver.eachBody([&](Index i, const BodyState<Real>& s) {
-        const RigidBody& body = collider_.bodies()[i];
-        const Vec2 move(static_cast<double>(s.moveX), static_cast<double>(s.moveY));
-        if (body.moves &&
-            !(move.squaredNorm() <= 0.0625 * static_cast<double>(body.length) * static_cast<double>(body.length)))
-            any.store(true, std::memory_order_relaxed);
-    });
-    return any;
+    solver.turn(nodes, [&] { noteTouches(solver.changes()); });
 }
 
 void RigidStage::begin(State& state, const WorldSettings& settings, double h, double dt, StepStats& stats)
@@ -441,7 +430,7 @@ void RigidStage::finish(State& state, bool bounce)
     if (!joints_.empty() && nets_.due(joints_.size(), double_.strained(), substeps_ * double_.shape().h)) {
         for (Index i = 1; i < collider_.bodies().size(); ++i)
             budgets_[i].place = state.nodes.position[collider_.bodies()[i].node];
-        nets_.restrain(Nets::Step<double>{double_, collider_, joints_, budgets_});
+        nets_.restrain(Nets::Step<double>{double_, collider_, joints_, budgets_, jointsVersion_, pool_});
     }
     exchange(state, true);
     for (Index i = 1; i < collider_.bodies().size(); ++i) {

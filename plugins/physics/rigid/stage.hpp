@@ -182,8 +182,6 @@ private:
     template <class Real>
     void advance(Solver<Real>&, State&, double dt);
     template <class Real>
-    bool anyFast(Solver<Real>&);
-    template <class Real>
     void restrain(Solver<Real>&, const State&, double dt);
     void exchange(State&, bool store);
     void noteTouches(const std::vector<TouchChange>&);

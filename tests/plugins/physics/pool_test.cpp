@@ -56,6 +56,41 @@ TEST(Pool, CutsRangesWithoutGapsOrOverlaps)
     }
 }
 
+TEST(Pool, TwoLoopsAtOnceAreDoneWholeAndEachThreadHasItsShareOfBoth)
+{
+    for (const int threads : {1, 2, 3, 7}) {
+        Pool pool;
+        pool.setThreads(threads);
+        for (const std::size_t first : {0U, 1U, 2U, 9U, 40U})
+            for (const std::size_t second : {0U, 1U, 5U, 33U}) {
+                std::vector<int> one(first, 0), other(second, 0);
+                pool.both(
+                    first, [&](std::size_t block) { ++one.at(block); }, second,
+                    [&](std::size_t block) { ++other.at(block); });
+                ASSERT_EQ(one, std::vector<int>(first, 1)) << threads << " threads, " << first << " and " << second;
+                ASSERT_EQ(other, std::vector<int>(second, 1)) << threads << " threads, " << first << " and " << second;
+            }
+    }
+}
+
+TEST(Pool, WhatIsBesideALoopIsDoneOnceAndByTheCallerWhereTheLoopIsShort)
+{
+    for (const int threads : {1, 2, 4}) {
+        Pool pool;
+        pool.setThreads(threads);
+        for (const std::size_t blocks : {0U, 1U, 2U, 30U}) {
+            std::vector<int> done(blocks, 0);
+            int beside = 0;
+            std::thread::id by;
+            const auto work = [&](std::size_t block) { ++done[block]; };
+            pool.beside(blocks, work, [&] { ++beside, by = std::this_thread::get_id(); });
+            ASSERT_EQ(done, std::vector<int>(blocks, 1));
+            ASSERT_EQ(beside, 1);
+            if (blocks < 2) EXPECT_EQ(by, std::this_thread::get_id());
+        }
+    }
+}
+
 TEST(Pool, WorkersThatSleepAreWokenAndMayChangeInNumber)
 {
     Pool pool;
