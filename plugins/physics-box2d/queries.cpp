@@ -139,7 +139,11 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
             const b2DistanceInput near = distanceTo(fixture, child, caster.proxy);
             const b2DistanceOutput start = distanceOf(near, true);
             if (!(start.distance > 0)) {  // it begins there
-                take({body, units(start.pointA), Vec2(0, 0), 0});
+                Vec2 out = way.squaredNorm() > 0
+                               ? Vec2(-way)
+                               : Vec2(caster.box.center() - units(fixture.GetBody()->GetWorldCenter()));
+                if (!(out.squaredNorm() > 0)) out = Vec2(0, -1);
+                take({body, units(start.pointA), out.stableNormalized(), 0});
                 continue;
             }
             b2ShapeCastInput input;
@@ -157,6 +161,7 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
 
 std::vector<BodyHandle> World::overlapping(const Box& box, const QueryFilter& filter) const
 {
+    if (box.isNull()) return {};
     checks().place("a box", "first corner", box.min);
     checks().place("a box", "second corner", box.max);
     const ShapeDef area{
@@ -203,7 +208,7 @@ std::optional<CastHit> World::nearest(const Vec2& point, double reach, const Que
             if (fraction > 1) continue;
             if (best && (best->fraction < fraction || (best->fraction == fraction && best->body <= body))) continue;
             const Vec2 off = point - at;
-            best = CastHit{body, at, off.norm() > 0 ? Vec2(off.normalized()) : Vec2(0, 0), fraction};
+            best = CastHit{body, at, off.norm() > 0 ? Vec2(off.normalized()) : Vec2(0, -1), fraction};
         }
     });
     return best;

@@ -122,6 +122,7 @@ private:
     int substepsOf(double dt) const;
     void watchFastBodies(double h);
     void dampen(double h);
+    void refuseNoNumbers() const;
     void pushBodies(double h);
     void push(AngularSpring&, double h) const;
     void steer(Joint&, double h) const;

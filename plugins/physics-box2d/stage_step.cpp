@@ -1,6 +1,7 @@
 // The step: forces, Box2D's own steps, then what tore or broke, and the report.
 #include "stage.hpp"
 #include "units.hpp"
+#include "validation.hpp"
 
 #include <box2d/b2_contact.h>
 
@@ -62,6 +63,20 @@ void Stage::pushBodies(double h)
         if (joint.joint) steer(joint, h);
 }
 
+/// Box2D computes in single: squares of what is taken may be more than it can hold, and differences of those nothing.
+void Stage::refuseNoNumbers() const
+{
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const b2Body& body = *bodies_[i].body;
+        if (body.GetPosition().IsValid() && body.GetLinearVelocity().IsValid() && b2IsValid(body.GetAngle()) &&
+            b2IsValid(body.GetAngularVelocity()))
+            continue;
+        fail(named("body", i) +
+             " moves by more than this engine can compute with; give it, and what it is joined to, masses, forces and "
+             "speeds nearer to one another, or choose the engine 'jet-physics'.");
+    }
+}
+
 void Stage::step(double dt)
 {
     const int count = substepsOf(dt);
@@ -75,6 +90,7 @@ void Stage::step(double dt)
         pushBodies(h);
         world_->Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
         dampen(h);
+        refuseNoNumbers();
         tearAndBreak(h);
         const b2Profile& profile = world_->GetProfile();
         stats_.broadPhaseMs += static_cast<double>(profile.broadphase);

@@ -147,7 +147,13 @@ JointHandle World::addJoint(const JointDef& def)
 void World::step(double dt)
 {
     if (!(dt > 0 && dt <= 1)) fail("a step lasts more than 0 and at most 1 second.");
-    does({Deed::Step, 0, 1, 0, dt, 0});
+    try {
+        does({Deed::Step, 0, 1, 0, dt, 0});
+    } catch (...) {
+        stage_ = again(history_);  // half a step is none
+        changed();
+        throw;
+    }
 }
 
 void World::setTorque(ActuatorHandle torque, double value)
@@ -219,6 +225,8 @@ void World::setBody(BodyHandle body, const BodyCommon& common)
 {
     requireBelow("body", body, bodyCount());
     checks().check(body, common, settings_.materialCount);
+    if (common.fixed != stage_->bodies()[body].common.fixed)
+        fail(named("body", body) + " cannot become fixed or free while the world runs; make it kinematic instead.");
     doesSpecial([body, common](Stage& stage) { stage.setBody(body, common); });
 }
 
@@ -338,6 +346,7 @@ bool World::contains(BodyHandle handle, const Vec2& point) const
     requireBelow("body", handle, bodyCount());
     if (!isFinite(point)) return false;
     const Body& body = stage_->bodies()[handle];
+    if (!body.body->IsEnabled()) return false;
     if (!body.solid) {
         for (const b2Fixture* f = body.body->GetFixtureList(); f; f = f->GetNext())
             if (f->TestPoint(metres(point))) return true;

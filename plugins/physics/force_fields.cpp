@@ -2,6 +2,7 @@
 
 #include "rigid/decompose.hpp"
 #include "surface.hpp"
+#include "validation.hpp"
 
 namespace jet::physics {
 
@@ -52,15 +53,17 @@ Index ForceFields::add(const ForceFieldDef& def)
 
 void ForceFields::set(Index field, const ForceFieldDef& def)
 {
-    ForceFieldDef wanted = def;
-    wanted.kind = fields_[field].def.kind;
-    fields_[field] = Field(wanted);
+    if (def.kind != fields_[field].def.kind)
+        checks().fail(
+            named("force field", field) +
+            ": its kind cannot change while the world runs; add another field, and give this one no strength.");
+    fields_[field] = Field(def);
 }
 
 bool ForceFields::isSet(Index field, const ForceFieldDef& def) const
 {
     const ForceFieldDef& now = fields_[field].def;
-    return def.region == now.region && def.vector == now.vector && def.centre == now.centre &&
+    return def.kind == now.kind && def.region == now.region && def.vector == now.vector && def.centre == now.centre &&
            def.strength == now.strength && def.reach == now.reach && def.drag == now.drag;
 }
 

@@ -43,7 +43,10 @@ public:
         Walls& walls = state.walls;
         const auto keep = [&](auto& values) { with.list(values, [&](auto& value) { with(value); }); };
         keep(walls.first), keep(walls.second), keep(walls.previous), keep(walls.next), keep(walls.outward);
-        keep(walls.firstEnd), keep(walls.secondEnd);
+        // How far walls are felt beyond their ends is worked out anew where a soft body is met; rigid ones do not
+        // change.
+        walls.firstEnd.resize(walls.first.size(), WallEnd::Blunt),
+            walls.secondEnd.resize(walls.first.size(), WallEnd::Blunt);
         keep(cuts_);
         for (BodyRecord& body : state.bodies) {
             if (!body.soft) continue;

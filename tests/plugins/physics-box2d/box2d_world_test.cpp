@@ -49,6 +49,60 @@ TEST(Box2dWorld, ARefusedBodyLeavesNothingBehind)
     world.step(kStep);
 }
 
+TEST(Box2dWorld, ABodyDoesNotBecomeFixedWhileTheWorldRuns)
+{
+    World world{WorldSettings()};
+    const BodyHandle body = world.addRigidBody(disc({0, 0}, 5));
+    BodyCommon common;
+    common.fixed = true;
+    EXPECT_NE(refusalOf([&] { world.setBody(body, common); }).find("body 0 cannot become fixed"), std::string::npos);
+    world.step(kStep);
+    EXPECT_GT(world.bodies().velocity[body].y(), 0);
+}
+
+TEST(Box2dWorld, QueriesThatBeginWithinABodyHaveAUnitNormal)
+{
+    World world{WorldSettings()};
+    RigidBodyDef box;
+    box.shapes = {{ShapeDef::Kind::Polygon, {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}}, 0}};
+    const BodyHandle body = world.addRigidBody(box);
+    for (const Vec2& way : {Vec2(30, 40), Vec2(0, 0)}) {
+        const auto hit = world.shapeCast({ShapeDef::Kind::Circle, {{3, 4}}, 2}, way, {});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->fraction, 0);
+        EXPECT_NEAR(hit->normal.norm(), 1, 1e-9);
+        EXPECT_LE(hit->normal.dot(way), 0);
+    }
+    EXPECT_NEAR(world.nearest({3, 4}, 20, {})->normal.norm(), 1, 1e-6);
+    EXPECT_TRUE(world.overlapping(Box(), {}).empty());
+    EXPECT_TRUE(world.contains(body, {3, 4}));
+    world.setEnabled(body, false);
+    EXPECT_FALSE(world.contains(body, {3, 4})) << "what is switched off is not seen";
+}
+
+TEST(Box2dWorld, AStepThatFloatsCannotHoldIsRefusedWithItsBodyAndChangesNothing)
+{
+    World world{WorldSettings()};
+    for (const double x : {0.0, 20.0}) {
+        RigidBodyDef heavy = disc({x, 0}, 5);
+        heavy.mass = 1e12;
+        world.addRigidBody(heavy);
+    }
+    JointDef joint;
+    joint.kind = JointDef::Kind::Distance;
+    joint.a = {0, {0, 0}, 0}, joint.b = {1, {20, 0}, 0};
+    joint.hertz = 1e15;  // mass times its square is more than a float holds
+    joint.length = 30;
+    world.addJoint(joint);
+    const std::uint64_t before = world.hash();
+    const std::string refusal = refusalOf([&] {
+        for (int i = 0; i < 5; ++i) world.step(kStep);
+    });
+    EXPECT_NE(refusal.find("body "), std::string::npos) << refusal;
+    EXPECT_EQ(world.hash(), before);
+    for (const Vec2& at : world.bodies().position) EXPECT_TRUE(isFinite(at));
+}
+
 TEST(Box2dWorld, ASnapshotHoldsWhatWasDoneInBetween)
 {
     World world{WorldSettings()};

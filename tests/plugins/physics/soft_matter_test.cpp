@@ -294,6 +294,24 @@ TEST(ForceField, ARewindBringsTheOldRegionBack)
     EXPECT_EQ(world->hash(), expected);
 }
 
+TEST(ForceField, AnotherKindIsRefusedAndChangesNothing)
+{
+    auto world = makeWorld({0, 0});
+    world->addRigidBody(box({0, 0}, 10, 10));
+    ForceFieldDef wind;
+    wind.vector = {100, 0};
+    const auto handle = world->addForceField(wind);
+    const auto before = world->hash();
+    wind.kind = ForceFieldDef::Kind::Drag;
+    try {
+        world->setForceField(handle, wind);
+        ADD_FAILURE() << "was taken";
+    } catch (const Failure& failure) {
+        EXPECT_NE(failure.error().message.find("force field 0: its kind"), std::string::npos);
+    }
+    EXPECT_EQ(world->hash(), before);
+}
+
 TEST(ForceField, DragBringsToTheSpeedOfTheWindExponentially)
 {
     auto world = makeWorld({0, 0});
