@@ -13,6 +13,7 @@
 #include <jet/testing/tool_driver.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -42,7 +43,8 @@ struct Context {
     Board& board;
     Random random;
 
-    /// A callback that takes longer has hung, for a person: it blocks the window.
+    /// A callback that takes longer has hung, for a person: it blocks the window. Time in which a busy machine gives
+    /// the thread no processor does not count.
     static constexpr std::chrono::seconds callLimit{2 * kSlowness};
 
     [[noreturn]] void fail(const std::string& reason) const { throw Failed(reason); }
@@ -53,7 +55,7 @@ struct Context {
     decltype(auto) call(const char* callback, Fn&& fn) const
     {
         board.callback(callback);
-        const Watch watch{*this, callback, std::chrono::steady_clock::now(), std::uncaught_exceptions()};
+        const Watch watch{*this, callback, Clock::now(), std::uncaught_exceptions()};
         try {
             return fn();
         } catch (const Failed&) {
@@ -68,10 +70,16 @@ struct Context {
     std::string where(const std::string& problem) const;
 
 private:
+    /// Runs while the thread works or sleeps, and stands while it is ready and waits for a processor. Of one thread.
+    struct Clock {
+        using duration = std::chrono::nanoseconds;
+        using time_point = std::chrono::time_point<std::chrono::steady_clock, duration>;
+        static time_point now();
+    };
     struct Watch {
         const Context& context;
         const char* callback;
-        std::chrono::steady_clock::time_point begin;
+        Clock::time_point begin;
         int exceptions;
         ~Watch() noexcept(false);
     };

@@ -78,17 +78,29 @@ std::optional<double> numberOf(const Value& value, char component)
     return std::nullopt;
 }
 
+bool compares(Compare compare, double number, double with)
+{
+    switch (compare) {
+    case Compare::Equal: return number == with;
+    case Compare::NotEqual: return number != with;
+    case Compare::Less: return number < with;
+    case Compare::LessOrEqual: return number <= with;
+    case Compare::Greater: return number > with;
+    default: return number >= with;
+    }
+}
+
+/// As numbers where both are; else as texts, which have no order.
 bool compares(const Term& term, const Value& value)
 {
-    if (term.compare == Compare::Text) return fits(value.text(), term.value);
-    const std::optional<double> number = term.number ? numberOf(value, term.component) : std::nullopt;
+    if (term.compare != Compare::Text && term.number)
+        if (const std::optional<double> number = numberOf(value, term.component))
+            return compares(term.compare, *number, *term.number);
     switch (term.compare) {
-    case Compare::Equal: return number ? *number == *term.number : fits(value.text(), term.value);
-    case Compare::NotEqual: return number ? *number != *term.number : !fits(value.text(), term.value);
-    case Compare::Less: return number && *number < *term.number;
-    case Compare::LessOrEqual: return number && *number <= *term.number;
-    case Compare::Greater: return number && *number > *term.number;
-    default: return number && *number >= *term.number;
+    case Compare::Text:
+    case Compare::Equal: return fits(value.text(), term.value);
+    case Compare::NotEqual: return !fits(value.text(), term.value);
+    default: return false;
     }
 }
 

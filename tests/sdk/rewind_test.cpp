@@ -9,8 +9,10 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <cstddef>
+#include <span>
 #include <thread>
+#include <vector>
 
 namespace jet {
 
@@ -24,8 +26,9 @@ Bytes sample(int step)
     std::vector<double> values;
     for (int i = 0; i < 40; ++i) values.push_back(100 * std::sin(0.01 * step + i));
     for (int i = 0; i < 40; ++i) values.push_back(i % 7 == step % 7 ? -1.0 * step : 3.25 * i);
-    Bytes bytes(values.size() * sizeof(double) + 3, std::byte{0x7f});
-    std::memcpy(bytes.data(), values.data(), values.size() * sizeof(double));
+    const auto raw = std::as_bytes(std::span(values));
+    Bytes bytes(raw.begin(), raw.end());
+    bytes.resize(bytes.size() + 3, std::byte{0x7f});
     bytes.back() = static_cast<std::byte>(step);
     return bytes;
 }
