@@ -86,7 +86,9 @@ TEST(Pool, WhatIsBesideALoopIsDoneOnceAndByTheCallerWhereTheLoopIsShort)
             pool.beside(blocks, work, [&] { ++beside, by = std::this_thread::get_id(); });
             ASSERT_EQ(done, std::vector<int>(blocks, 1));
             ASSERT_EQ(beside, 1);
-            if (blocks < 2) EXPECT_EQ(by, std::this_thread::get_id());
+            if (blocks < 2) {
+                EXPECT_EQ(by, std::this_thread::get_id());
+            }
         }
     }
 }
