@@ -193,8 +193,8 @@ void World::substep(double h, int index, int count)
         integrateVelocities(state_, settings_, springs_, h, pushed);
         const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
-        if (accounts) accounts_.end(state_);
         soft::applyPressure(state_, h);
+        if (accounts) accounts_.end(state_);
         const std::span<const double> offs = settings_.findCollisions ? finder_.offs() : std::span<const double>();
         if (index == 0 && !plain_ && offs.empty()) shapes_.look(state_, count * h);
         if (!plain_) shapes_.apply(state_, springs_, h, offs);

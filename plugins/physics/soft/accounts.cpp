@@ -1,6 +1,7 @@
 #include "soft/accounts.hpp"
 
 #include "disjoint_sets.hpp"
+#include "soft/enclosed_area.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kReserve = 0.05;  // of the kinetic energy
 constexpr double kOwed = 0.99;     // of a debt that is owed still after kSubsteps
+constexpr double kRest = 0.01;     // lengths of a body a second: slower is at rest
 constexpr Index kMostParticles = 1024;
 
 // Marks of bodies.
@@ -43,9 +45,7 @@ void Accounts::gather(const Scene& scene)
         }
         if (movesA && movesB) unite(group_, a, b);
     };
-    scene.joints.eachHeld(state, [&](Index a, Index b, bool driven, bool pulley) {
-        join(a, b, static_cast<std::uint8_t>((driven ? kDriven : 0) | (pulley ? kAnchored : 0)));
-    });
+    scene.joints.eachHeld(state, [&](Index a, Index b, bool pulley) { join(a, b, pulley ? kAnchored : 0); });
     scene.actuators.eachBond([&](Index a, Index b) { join(a, b, 0); });
     for (Index body = 0; body < count; ++body)
         if (marks_[body] != 0) marks_[rootOf(group_, body)] |= marks_[body];
@@ -113,7 +113,9 @@ void Accounts::addHeld(const Scene& scene, double sign)
             held -= mass * body.gravityScale * scene.gravity.dot(scene.state.nodes.position[n]);
         });
         for (Index i = net.first; i < net.end; ++i)
-            if (!scene.state.bodies[bodies_[i]].rigid) held += scene.springs.energy(scene.state, bodies_[i], scene.h);
+            if (!scene.state.bodies[bodies_[i]].rigid)
+                held += scene.springs.energy(scene.state, bodies_[i], scene.h) +
+                        gasEnergy(scene.state, scene.state.bodies[bodies_[i]], scene.h);
         net.held = held;
     }
     const auto add = [&](Index a, Index b, double energy) {
@@ -125,6 +127,14 @@ void Accounts::addHeld(const Scene& scene, double sign)
     for (Net& net : nets_) net.gained += sign * net.held;
 }
 
+void Accounts::takeGiven(const Scene& scene)
+{
+    scene.joints.takeGiven([&](Index a, Index b, double energy) {
+        const Index net = netOf(a) != kNone ? netOf(a) : netOf(b);
+        if (net != kNone) nets_[net].gained -= energy;
+    });
+}
+
 void Accounts::open(const Scene& scene)
 {
     nets_.clear();
@@ -133,9 +143,42 @@ void Accounts::open(const Scene& scene)
         return;
     }
     gather(scene);
+    restrain(scene);
     if (!any()) return ledgers_.clear();
+    scene.joints.takeGiven([](Index, Index, double) {});
     addHeld(scene, -1);
     for (Net& net : nets_) net.heldBefore = net.held;
+}
+
+/// What forces give the net while it is at rest, until its account is settled.
+double Accounts::jolt(const Scene& scene, const Net& net) const
+{
+    double jolt = 0;
+    const double dt = kSubsteps * scene.h;
+    eachNode(scene.state, net, [&](Index, double mass, double, const BodyRecord& body) {
+        jolt += 0.5 * mass * (body.gravityScale * dt * scene.gravity).squaredNorm();
+    });
+    return jolt;
+}
+
+/// What is in debt pushes out errors less: pushes that strain springs or lift what hangs are what it is owed for.
+void Accounts::restrain(const Scene& scene)
+{
+    auto ledger = ledgers_.begin();
+    for (Net& net : nets_) {
+        while (ledger != ledgers_.end() && ledger->body < net.body) ++ledger;
+        if (ledger == ledgers_.end() || ledger->body != net.body || !(ledger->reserve < 0)) continue;
+        double rest = 0;
+        eachNode(scene.state, net, [&](Index, double mass, double, const BodyRecord& body) {
+            rest += 0.5 * mass * std::pow(kRest * body.length, 2);
+        });
+        const double free = rest + jolt(scene, net) + kReserve * ledger->peak;
+        net.part = free / (free - ledger->reserve);
+    }
+    scene.joints.allow([&](Index a, Index b) {
+        const Index net = netOf(a) != kNone ? netOf(a) : netOf(b);
+        return net != kNone ? nets_[net].part : 1.0;
+    });
 }
 
 void Accounts::force(const Scene& scene)
@@ -155,9 +198,10 @@ void Accounts::force(const Scene& scene)
 double Accounts::settle(Net& net, double kinetic, double jolt)
 {
     Ledger& ledger = ledgers_.back();
-    const double allowed = std::max(kinetic - net.gained, 0.0);
-    ledger.reserve += kReserve * std::max(0.0, allowed - ledger.peak);
-    ledger.peak = std::max(ledger.peak, allowed);
+    // Of what it has and may have: what springs lost as their patch turned over was never motion.
+    const double had = std::clamp(kinetic - net.gained, 0.0, kinetic);
+    ledger.reserve += kReserve * std::max(0.0, had - ledger.peak);
+    ledger.peak = std::max(ledger.peak, had);
     const double left = ledger.reserve - net.gained;
     ledger.reserve = std::clamp(left, 0.0, kReserve * ledger.peak + jolt);
     return std::max(0.0, -left);
@@ -167,15 +211,12 @@ void Accounts::close(const Scene& scene)
 {
     if (!any()) return;
     addHeld(scene, 1);
+    takeGiven(scene);
     std::swap(ledgers_, former_);
     ledgers_.clear();
     auto old = former_.begin();
     for (Net& net : nets_) {
-        double jolt = 0;
-        const double dt = kSubsteps * scene.h;
-        eachNode(scene.state, net, [&](Index, double mass, double, const BodyRecord& body) {
-            jolt += 0.5 * mass * (body.gravityScale * dt * scene.gravity).squaredNorm();
-        });
+        const double jolt = this->jolt(scene, net);
         while (old != former_.end() && old->body < net.body) ++old;
         Ledger& ledger = ledgers_.emplace_back();
         if (old != former_.end() && old->body == net.body) {

@@ -2,9 +2,9 @@
 //
 // Joints and springs do no work of their own, but a push that moves particles against the springs of their body does:
 // it is taken back as velocity, what it strained stays. So an account is kept of each net, soft bodies and what is
-// joined to them: its kinetic energy and what its springs hold, which only forces, gas, shape memory, contacts and
-// other stages may add to. What a step leaves too much is taken out of the motion within the net; momentum and angular
-// momentum stay.
+// joined to them: its kinetic energy and what its springs and gas hold, which only forces, motors, mice, shape memory,
+// contacts and other stages may add to. What a step leaves too much is taken out of the motion within the net; momentum
+// and angular momentum stay. What cannot be taken is owed, and what owes pushes out errors less (decision 0066).
 //
 // Order of calls: open -> each substep: force before springs; begin and end around springs, around joints, and around
 // springs of the scene -> close.
@@ -67,6 +67,7 @@ private:
         bool anchored = false;            // to what does not move, or moves by itself
         double gained = 0;                // kinetic, of what is to give none; less what forces gave and springs held
         double held = 0, heldBefore = 0;  // by springs, and as weight: now; when it was opened
+        double part = 1;                  // of the errors of its joints that may be pushed out
     };
     /// Motion of a net as a whole.
     struct Whole {
@@ -75,6 +76,9 @@ private:
     };
 
     void gather(const Scene&);
+    void restrain(const Scene&);
+    void takeGiven(const Scene&);
+    double jolt(const Scene&, const Net&) const;
     void change(const State&, double sign);
     /// Of springs, and of weight.
     void addHeld(const Scene&, double sign);

@@ -18,6 +18,8 @@ namespace jet::physics::soft {
 
 /// Changes the velocities of the bodies that hold gas or keep their area, over h.
 void applyPressure(State&, double h);
+/// What its gas and its area hold, in substeps of h; 0 at the area at rest.
+double gasEnergy(const State&, const BodyRecord&, double h);
 /// Area inside the body's walls as they are, units²; below 0 when it is turned inside out.
 double enclosedArea(const State&, const BodyRecord&);
 

@@ -16,8 +16,9 @@ constexpr int kPasses = 2;
 // Errors beyond so many lengths of the body, or radians, are not pushed out at once: a patch that gives way is not
 // thrown.
 constexpr double kFarLengths = 0.03, kFarTurn = 0.06;
-constexpr double kTurn = 0.5;  // radians that a push turns a patch by at most
-constexpr int kNearest = 6;    // particles that hold a point which is none
+constexpr double kTurn = 0.5;      // radians that a push turns a patch by at most
+constexpr double kSettling = 0.5;  // seconds
+constexpr int kNearest = 6;        // particles that hold a point which is none
 
 std::string nameOf(JointDef::Kind kind)
 {
@@ -111,6 +112,12 @@ Index Joints::add(const State& state, const JointDef& def)
     } else if (def.length < 0) {
         joint.length = (def.b.point - def.a.point).norm();
     }
+    held.joint.def.hertz = 1;
+    makeRows(held, a, b, 1);
+    for (const JointRow<double>& row : rows_)
+        if (row.soft) held.springMass = row.mass;
+    held.joint.def.hertz = def.hertz;
+    held.settling = kSettling;
     joints_.push_back(std::move(held));
     return static_cast<Index>(joints_.size() - 1);
 }
@@ -187,20 +194,36 @@ void Joints::makeRows(const Held& held, const Pose& a, const Pose& b, double h)
     if (joint.hasPoint()) addPoint(joint, f);
     for (JointRow<double>& row : rows_) {
         const bool turns = row.ax == 0 && row.ay == 0 && row.bx == 0 && row.by == 0;
-        row.far = std::min(row.far, turns ? kFarTurn : held.far);
+        row.far = held.part * std::min(row.far, turns ? kFarTurn : held.far);
+        if (row.soft) keepStiffness(held, row, h);
     }
+}
+
+/// The spring of a joint is as stiff as it was for the patch as it was joined. If it became stiffer as the patch
+/// spreads, and softer as it shrinks, the patch would get out of it what nobody put in.
+void Joints::keepStiffness(const Held& held, JointRow<double>& row, double h) const
+{
+    const JointDef& def = held.joint.def;
+    if (def.kind == JointDef::Kind::Mouse || !(held.springMass > 0) || !(row.mass > 0)) return;
+    // k = m w² and d = 2 zeta m w stay.
+    const double change = std::sqrt(held.springMass / row.mass);
+    row.spring = softnessOf(change * def.hertz, change * def.dampingRatio, h);
+    row.frequency *= change;
 }
 
 void Joints::addPoint(const Joint& joint, const JointFrame& f)
 {
     const Vec2 apart = f.pointB - f.pointA;
+    // Both impulses act half way between the points: those of points far apart would turn the whole.
+    const bool both = ends_[joint.a].invMass > 0 && ends_[joint.b].invMass > 0;
+    const Vec2 armA = f.armA + (both ? 0.5 : 0.0) * apart, armB = f.armB - (both ? 0.5 : 0.0) * apart;
     for (int axis = 0; axis < 2; ++axis) {
         const Vec2 along = axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
         JointRow<double> row;
         row.a = joint.a, row.b = joint.b, row.slot = static_cast<Index>(axis);
         const BodyState<double>&endA = ends_[joint.a], &endB = ends_[joint.b];
-        row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(f.armA, along) * endA.perGyration;
-        row.bx = along.x(), row.by = along.y(), row.angularB = cross(f.armB, along) * endB.perGyration;
+        row.ax = -along.x(), row.ay = -along.y(), row.angularA = -cross(armA, along) * endA.perGyration;
+        row.bx = along.x(), row.by = along.y(), row.angularB = cross(armB, along) * endB.perGyration;
         const double give =
             endA.invMass * (1 + row.angularA * row.angularA) + endB.invMass * (1 + row.angularB * row.angularB);
         row.mass = give > 0 ? 1 / give : 0;
@@ -222,6 +245,23 @@ double Joints::energy(const State& state, Held& held, double h)
     return sum;
 }
 
+/// The work of an impulse is that along the mean of the velocities before and after.
+void Joints::solveRows(Held& held, bool push)
+{
+    const Softness<double> standard = softnessOf(std::min(kHertz, kHertzPerSubstepRate / h_), kDampingRatio, h_);
+    const bool mouse = held.joint.def.kind == JointDef::Kind::Mouse;
+    const auto act = [&](JointRow<double>& row, double had, auto&& change) {
+        const double before = row.moving(ends_.data());
+        change();
+        if (row.velocityOnly || mouse) held.given += (row.impulse - had) * 0.5 * (before + row.moving(ends_.data()));
+    };
+    if (push)
+        for (JointRow<double>& row : rows_) act(row, 0, [&] { row.warm(ends_.data()); });
+    for (int pass = 0; pass < kPasses; ++pass)
+        for (JointRow<double>& row : rows_)
+            act(row, row.impulse, [&] { row.solve(ends_.data(), standard, 1 / h_, push); });
+}
+
 void Joints::solve(State& state, Held& held, bool push)
 {
     Joint& joint = held.joint;
@@ -229,15 +269,11 @@ void Joints::solve(State& state, Held& held, bool push)
     held.a.angle = a.angle, held.b.angle = b.angle;
     joint.substep = h_;  // they have been scaled
     makeRows(held, a, b, h_);
-    const Softness<double> standard = softnessOf(std::min(kHertz, kHertzPerSubstepRate / h_), kDampingRatio, h_);
     const auto energy = [&] { return kineticEnergy(ends_[1]) + kineticEnergy(ends_[2]); };
     if (push) held.work = held.stored = 0;
     for (const JointRow<double>& row : rows_) (push ? held.stored : held.work) += row.springEnergy(row.error);
     held.work -= energy();
-    if (push)
-        for (const JointRow<double>& row : rows_) row.warm(ends_.data());
-    for (int pass = 0; pass < kPasses; ++pass)
-        for (JointRow<double>& row : rows_) row.solve(ends_.data(), standard, 1 / h_, push);
+    solveRows(held, push);
     held.work += energy();
     if (!push) takeGain(held);
     give(state, held.a, a, ends_[1]);
@@ -291,6 +327,7 @@ void Joints::relax(State& state)
 bool Joints::settle(Held& held, double dt)
 {
     Joint& joint = held.joint;
+    held.settling = std::max(0.0, held.settling - dt);
     joint.state.force = held.pushed / dt, joint.state.torque = held.turned / dt;
     held.pushed = Vec2(0, 0), held.turned = 0;
     if (!joint.lives() || !(joint.def.breakForce > 0) || joint.state.force.norm() <= joint.def.breakForce) return false;
@@ -358,6 +395,7 @@ void Joints::set(const State& state, Index index, const JointDef& wanted)
     const JointDef old = joint.def, def = liveDef(wanted, old);
     requireDirection(def, held.a, held.b);
     joint.def = def;
+    held.settling = kSettling;
     if (wanted.length >= 0 && def.kind != JointDef::Kind::Pulley) joint.length = wanted.length;
     const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
     const JointFrame f = frame(held, a, b);
@@ -371,7 +409,7 @@ bool Joints::setTarget(Index joint, const Vec2& target)
 {
     Held& held = joints_[joint];
     Hold* end = held.a.background() ? &held.a : held.b.background() ? &held.b : nullptr;
-    if (end) end->local = target;
+    if (end) end->local = target, held.settling = kSettling;
     return end != nullptr;
 }
 

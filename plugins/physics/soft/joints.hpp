@@ -9,6 +9,8 @@
 
 #include "rigid/joint.hpp"
 
+#include <utility>
+
 namespace jet::physics::soft {
 
 class Joints {
@@ -30,7 +32,7 @@ public:
     /// Warm-start impulses are of one substep: for others of another length.
     void scale(double ratio);
 
-    /// Calls visit(body, body, driven, pulley) for what acts; kNone: the background.
+    /// Calls visit(body, body, pulley) for what acts; kNone: the background.
     template <class Visit>
     void eachHeld(const State& state, Visit&& visit) const
     {
@@ -38,16 +40,23 @@ public:
         for (const Held& held : joints_) {
             const JointDef& def = held.joint.def;
             if (!pulls(state, held)) continue;
-            visit(bodyOf(def.a), bodyOf(def.b), def.driven || def.kind == Kind::Motor || def.kind == Kind::Mouse,
-                  def.kind == Kind::Pulley);
+            visit(bodyOf(def.a), bodyOf(def.b), def.kind == Kind::Pulley);
         }
+    }
+    /// What motors and mice gave since this was asked: visit(body, body, energy).
+    template <class Visit>
+    void takeGiven(Visit&& visit)
+    {
+        for (Held& held : joints_)
+            if (held.given != 0)
+                visit(bodyOf(held.joint.def.a), bodyOf(held.joint.def.b), std::exchange(held.given, 0.0));
     }
     /// What springs of their own hold: visit(body, body, energy).
     template <class Visit>
     void eachEnergy(const State& state, double h, Visit&& visit)
     {
         for (Held& held : joints_)
-            if (held.joint.def.hertz > 0 && pulls(state, held))
+            if (held.joint.def.hertz > 0 && held.joint.def.kind != JointDef::Kind::Mouse && pulls(state, held))
                 visit(bodyOf(held.joint.def.a), bodyOf(held.joint.def.b), energy(state, held, h));
     }
 
@@ -60,6 +69,15 @@ public:
             if (!holds(bodyOf(def.a)) && !holds(bodyOf(def.b))) continue;
             for (double& impulse : held.joint.impulse) impulse *= part;
         }
+    }
+
+    /// How much of their errors the joints may push out: partOf(body, body), 0 to 1. All, where somebody put them
+    /// there.
+    template <class PartOf>
+    void allow(PartOf&& partOf)
+    {
+        for (Held& held : joints_)
+            held.part = held.settling > 0 ? 1 : partOf(bodyOf(held.joint.def.a), bodyOf(held.joint.def.b));
     }
 
     JointState state(const State&, Index joint) const;
@@ -77,7 +95,8 @@ public:
         for (Held& held : joints_) {
             Joint& joint = held.joint;
             with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length), with(joint.localAxis);
-            with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local);
+            with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local), with(held.springMass);
+            with(held.settling);
             JointDef& def = joint.def;
             with(def.driven), with(def.motorSpeed), with(def.motorVelocity), with(def.limited), with(def.lower);
             with(def.upper), with(def.maxForce), with(def.maxTorque), with(def.hertz), with(def.dampingRatio);
@@ -106,6 +125,10 @@ private:
         Joint joint;  // a and b: 0 the background, else 1 and 2
         Hold a, b;
         double far = 0;            // units: errors beyond are not pushed out at once
+        double part = 1;           // of which that is done now
+        double settling = 0;       // seconds for which errors count as put there, by adding or changing the joint
+        double springMass = 0;     // that its spring's hertz was given for: effective, when the joint was added
+        double given = 0;          // energy, by its motor or mouse
         Vec2 pushed = Vec2(0, 0);  // impulses on b in this step
         double turned = 0;
         double work = 0, stored = 0;  // of this substep: done on the ends; in springs at its start
@@ -121,6 +144,8 @@ private:
     static Index bodyOf(const Anchor& anchor) { return anchor.body == kNoHandle ? kNone : anchor.body; }
     void addPoint(const Joint&, const JointFrame&);
     void makeRows(const Held&, const Pose& a, const Pose& b, double h);
+    void keepStiffness(const Held&, JointRow<double>&, double h) const;
+    void solveRows(Held&, bool push);
     double energy(const State&, Held&, double h);
     void solve(State&, Held&, bool push);
     void takeGain(Held&);

@@ -1,0 +1,164 @@
+// Soft bodies on joints come by no energy: whatever pushes strain or lift, motors drive and springs of joints hold,
+// they have what they fell and were given.
+#include "formulas.hpp"
+
+namespace jet::physics::test {
+
+namespace {
+
+/// Kinetic energy and weight of the soft bodies of a world, from what it tells.
+class Energy {
+public:
+    Energy(PhysicsWorld& world, double gravity) : world_(world), gravity_(gravity) {}
+
+    void add(const SoftBodyDef& def)
+    {
+        double mass = 0;
+        for (std::size_t i = 0; i < def.masses.size(); ++i)
+            mass += def.masses[i], start_ -= gravity_ * def.masses[i] * def.particles[i].y();
+        masses_.push_back(mass);
+        weight_ += gravity_ * mass;
+        world_.addSoftBody(def);
+    }
+    double weight() const { return weight_; }
+    /// After a step: of the bodies as wholes, never more than there is; less what there was at the start.
+    double step(double dt)
+    {
+        world_.step(dt);
+        const BodyStates now = world_.bodies();
+        double kinetic = 0, held = -start_;
+        for (std::size_t i = 0; i < masses_.size(); ++i) {
+            kinetic += 0.5 * masses_[i] * now.velocity[i].squaredNorm();
+            held -= gravity_ * masses_[i] * now.position[i].y();
+        }
+        fell_ = std::max(fell_, -held);
+        return kinetic + held;
+    }
+    /// The most it gains in so many seconds, in falls by `size`; a tenth of what it fell is no gain.
+    double mostGain(double seconds, double dt, double size)
+    {
+        double most = 0;
+        for (int i = 0; i < static_cast<int>(std::lround(seconds / dt)); ++i) {
+            const double gain = step(dt);
+            most = std::max(most, gain / (weight_ * size + fell_));
+        }
+        return most;
+    }
+
+private:
+    PhysicsWorld& world_;
+    double gravity_;
+    std::vector<double> masses_;  // [bodies]
+    double weight_ = 0, start_ = 0, fell_ = 0;
+};
+
+constexpr double kSize = 40;
+
+SoftBodyDef unevenBall(const Vec2& centre, double ks, double ratio)
+{
+    SoftBodyDef def = softBall(centre, kSize / 2, ks, 0, 12, 2);
+    for (std::size_t i = 0; i < def.masses.size(); ++i) def.masses[i] = i % 2 == 0 ? ratio : 1;
+    return def;
+}
+
+JointDef hold(JointDef::Kind kind, const Vec2& at, BodyHandle a, double radiusA, BodyHandle b, double radiusB)
+{
+    JointDef def;
+    def.kind = kind;
+    def.a = {a, at, radiusA}, def.b = {b, at, radiusB};
+    return def;
+}
+
+/// A push that lifts a weight, or strains springs, is owed for: what is in debt does not push on.
+TEST(SoftEnergy, ARailThatCannotBeMetDoesNotLiftWhatHangsOnIt)
+{
+    for (const double ks : {1e3, 1e5}) {
+        for (const double creep : {120.0, 1000.0}) {
+            for (const double radius : {14.0, 23.0}) {
+                for (const double angle : {0.2, 2.5}) {
+                    auto world = makeWorld({0, 98.1});
+                    Energy energy(*world, 98.1);
+                    SoftBodyDef def = unevenBall({0, 0}, ks, 1e4);
+                    def.matter.yield = 0.01, def.matter.creep = creep, def.matter.mostFlow = 0.9;
+                    energy.add(def);
+                    JointDef rail = hold(JointDef::Kind::Prismatic, {-8, 5}, kNoHandle, 0, 0, radius);
+                    rail.axis = {std::cos(angle), std::sin(angle)};
+                    rail.limited = true, rail.lower = -8, rail.upper = 5;
+                    world->addJoint(rail);
+                    EXPECT_LT(energy.mostGain(10, 1.0 / 30, kSize), 0.1)
+                        << ks << " creep " << creep << " radius " << radius << " angle " << angle;
+                }
+            }
+        }
+    }
+}
+
+/// Pushes work against what keeps the area, too, which gives it back.
+TEST(SoftEnergy, BodiesThatKeepTheirAreaGainNothingFromJointsThatPressThem)
+{
+    for (const double ks : {0.05, 0.5}) {
+        for (const double ratio : {1.0, 12.0}) {
+            for (const double area : {125.0, 1e4, 1e6}) {
+                auto world = makeWorld({0, 300});
+                Energy energy(*world, 300);
+                for (int i = 0; i < 2; ++i) {
+                    SoftBodyDef def = unevenBall({45.0 * i, 0}, ks, ratio);
+                    for (SpringDef& spring : def.springs) spring.kd = 1;
+                    def.matter.areaStiffness = area;
+                    energy.add(def);
+                }
+                world->addJoint(hold(JointDef::Kind::Revolute, {22, 0}, 0, 19, 1, 23));
+                world->addJoint(hold(JointDef::Kind::Weld, {-5, 8}, kNoHandle, 0, 0, 16));
+                EXPECT_LT(energy.mostGain(5, 1.0 / 240, kSize), 0.1) << ks << " " << ratio << " " << area;
+            }
+        }
+    }
+}
+
+/// A motor gives force times way, and joints beside it do not multiply that.
+TEST(SoftEnergy, WhatAMotorDrivesHasNoMoreThanItGave)
+{
+    for (const double ks : {0.01, 1.0}) {
+        for (const double ratio : {1e2, 1e4}) {
+            constexpr double kForce = 3, kTorque = 30, kSpeed = 8, kSeconds = 6;
+            auto world = makeWorld({0, 13});
+            Energy energy(*world, 13);
+            SoftBodyDef def = unevenBall({0, 0}, ks, ratio);
+            energy.add(def);
+            JointDef wheel = hold(JointDef::Kind::Wheel, {5, 2}, kNoHandle, 0, 0, 14);
+            wheel.axis = {0.6, 0.8}, wheel.driven = true, wheel.motorSpeed = kSpeed, wheel.maxTorque = kTorque;
+            world->addJoint(wheel);
+            world->addJoint(hold(JointDef::Kind::Revolute, {-12, -2}, kNoHandle, 0, 0, 10));
+            EXPECT_LT(energy.mostGain(kSeconds, 1.0 / 120, kSize),
+                      0.1 + kTorque * kSpeed * kSeconds / (energy.weight() * kSize))
+                << ks << " " << ratio << " " << kForce;
+        }
+    }
+}
+
+/// Points that are far apart when they are joined would turn the whole if the impulses acted at each.
+TEST(SoftEnergy, AWeldOfPointsFarApartKeepsTheAngularMomentum)
+{
+    for (const double apart : {5.0, 25.0}) {
+        auto world = makeWorld({0, 0});
+        const SoftBodyDef ball = softBall({0, 0}, 20, 2000, 4);
+        world->addSoftBody(ball);
+        world->addRigidBody(box({45 + apart / 2, 0}, 20, 20, 1));
+        JointDef weld = hold(JointDef::Kind::Weld, {15, 0}, 0, 10, 1, 0);
+        weld.b.point = {15 + apart, 0};
+        world->addJoint(weld);
+        world->setVelocity(1, {0, 40});
+        const double start = 0.5 * (45 + apart / 2) * 40;  // m v r about the centre of both, half of each mass and way
+        run(*world, 4);
+        const BodyStates now = world->bodies();
+        const Vec2 way = now.position[1] - now.position[0], speed = now.velocity[1] - now.velocity[0];
+        double spin = 0.5 * cross(way, speed) + 1.0 / 6 * 400 * now.omega[1];
+        for (const Vec2& p : pointsOf(*world, 0))
+            spin += (p - now.position[0]).squaredNorm() / static_cast<double>(ball.masses.size()) * now.omega[0];
+        EXPECT_NEAR(spin, start, 0.02 * start) << apart;
+    }
+}
+
+}  // namespace
+
+}  // namespace jet::physics::test
