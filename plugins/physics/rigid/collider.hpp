@@ -115,8 +115,8 @@ public:
     void forgetPair(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
-    void stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves, const std::vector<double>& turns,
-                        double dt, Pool&);
+    void stopTunnelling(std::vector<float>& allowed, std::span<const Vec2> moves, std::span<const double> turns,
+                        double dt, Pool&, Arena&);
 
     const Rules& rulesOf(const RigidBody& body) const { return rules_[body.rules]; }
     void setRules(RigidBody&, const Rules&);
@@ -233,9 +233,9 @@ private:
     bool isLonger(Index partA, Index partB) const { return sweep_.isLonger(partA, partB); }
     /// Of a step that is over.
     struct Moves {
-        const std::vector<Vec2>& moves;    // [bodies]
-        const std::vector<double>& turns;  // [bodies]
-        float dropped;                     // units: what is lost of moves in single precision
+        std::span<const Vec2> moves;    // [bodies]
+        std::span<const double> turns;  // [bodies]
+        float dropped;                  // units: what is lost of moves in single precision
         double dt;
     };
     /// The part of their moves that two bodies go at most; above 1: what held them back gives way.
@@ -286,13 +286,13 @@ private:
     std::vector<Nearing> nearing_;            // [contacts]
     std::vector<std::uint8_t> hits_;          // [contacts] has one been seen in this step?
     std::vector<std::vector<Stop>> stopsBy_;  // scratch of stopTunnelling()
-    /// How a body moves in this step; scratch of stopTunnelling().
+    /// How a body moves in this step; of stopTunnelling(), in the arena.
     struct Going {
         Vec2f move;         // units
         float allowed = 1;  // part of it
         float unused = 0;
     };
-    std::vector<Going> going_;   // [bodies]
+    std::span<Going> going_;     // [bodies]
     std::vector<double> way_;    // [bodies] units their farthest points have come since they were added
     std::vector<Index> free_;    // gaps in the contacts
     std::vector<Index> roused_;  // bodies

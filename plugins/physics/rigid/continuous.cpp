@@ -164,12 +164,14 @@ float Collider::untilCentrePasses(const RigidContact& c, const Vec2& relativeMov
     return away > 0 && closing > kCore * away ? static_cast<float>(kCore * away / closing) : 1.0F;
 }
 
-void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec2>& moves,
-                              const std::vector<double>& turns, double dt, Pool& pool)
+void Collider::stopTunnelling(std::vector<float>& allowed, std::span<const Vec2> moves, std::span<const double> turns,
+                              double dt, Pool& pool, Arena& arena)
 {
     allowed.assign(bodies_.size(), 1.0F);
     if (contacts_.empty()) return;
-    going_.resize(bodies_.size());
+    const std::size_t mark = arena.mark();
+    going_ = arena.take<Going>(bodies_.size());
+    going_[0] = {};  // the background
     std::atomic<float> farthest = 0;
     pool.ranges(bodies_.size(), kBodiesABlock, [&](std::size_t first, std::size_t last) {
         float most = 0;
@@ -200,6 +202,8 @@ void Collider::stopTunnelling(std::vector<float>& allowed, const std::vector<Vec
         for (const Stop& stop : stopsBy_[block])
             for (const Index body : {stop.bodyA, stop.bodyB})
                 if (stop.part <= 1 && bodies_[body].moves) allowed[body] = std::min(allowed[body], stop.part);
+    going_ = {};
+    arena.release(mark);
 }
 
 /// Of contacts [first, last), in an order that does not matter.

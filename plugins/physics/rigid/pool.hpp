@@ -70,16 +70,14 @@ public:
     template <class First, class Second>
     void both(std::size_t first, First&& one, std::size_t second, Second&& other)
     {
-        const std::size_t blocks = first + second, threads = static_cast<std::size_t>(used_);
+        const std::size_t blocks = first + second;
+        // Taken from the back, as threads take them: so the last thread begins with the second loop.
         run(blocks, [&](std::size_t block) {
-            std::size_t share = 0;
-            while ((share + 1) * blocks / threads <= block) ++share;
-            const std::size_t begin = share * blocks / threads, from = share * first / threads,
-                              to = (share + 1) * first / threads;
-            if (block - begin < to - from) {
-                one(from + (block - begin));
+            const std::size_t back = blocks - 1 - block, ones = back * first / blocks;
+            if ((back + 1) * first / blocks > ones) {
+                one(first - 1 - ones);
             } else {
-                other(block - to);
+                other(second - 1 - (back - ones));
             }
         });
     }

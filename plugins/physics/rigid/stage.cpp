@@ -327,7 +327,10 @@ template <class Real>
 void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
 {
     Nodes& nodes = state.nodes;
-    moves_.resize(collider_.bodies().size()), turns_.resize(collider_.bodies().size());
+    const std::size_t mark = arena_.mark();
+    const std::span<Vec2> moves = arena_.take<Vec2>(collider_.bodies().size());
+    const std::span<double> turns = arena_.take<double>(collider_.bodies().size());
+    moves[0] = Vec2(0, 0), turns[0] = 0;  // the background
     Flag fast;
     solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
@@ -335,9 +338,9 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         double turn = static_cast<double>(s.sweep) / body.gyration;
         if (body.moves && isFar(move, body)) fast.raise();
         limitMove(move, turn, dt);
-        moves_[i] = move, turns_[i] = turn;
+        moves[i] = move, turns[i] = turn;
     });
-    if (fast) collider_.stopTunnelling(allowed_, moves_, turns_, dt, pool_);
+    if (fast) collider_.stopTunnelling(allowed_, moves, turns, dt, pool_, arena_);
     solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         if ((!body.moves && !body.kinematic) || body.asleep) return;
@@ -345,11 +348,12 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
         nodes.omega[body.node] = static_cast<double>(s.spin) / body.gyration;
         limitSpeed(nodes.velocity[body.node], nodes.omega[body.node]);
-        nodes.position[body.node] += part * moves_[i];
-        const double turn = part * turns_[i];
-        collider_.travelled(i, part * moves_[i].norm() + std::abs(turn) * static_cast<double>(body.reach));
+        nodes.position[body.node] += part * moves[i];
+        const double turn = part * turns[i];
+        collider_.travelled(i, part * moves[i].norm() + std::abs(turn) * static_cast<double>(body.reach));
         nodes.angle[body.node] += turn;
     });
+    arena_.release(mark);
     solver.turn(nodes, [&] { noteTouches(solver.changes()); });
 }
 

@@ -219,8 +219,8 @@ private:
     };
     std::vector<Parting> ended_;  // since the last step
     Touches touches_;
-    std::vector<Vec2> start_, moves_;
-    std::vector<double> startAngle_, turns_;
+    std::vector<Vec2> start_;
+    std::vector<double> startAngle_;
     std::vector<float> allowed_;
     std::vector<Nets::Budget>
         budgets_;          // [bodies] at the start of the step, and given by others since; of those it moves
