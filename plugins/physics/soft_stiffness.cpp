@@ -160,16 +160,12 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
     // With a twin: see soft/twins.hpp.
     const bool twin = body.hasTwin();
     const double beside = twin ? h * h * body.soft->twinRate / 2 : 0, left = twin ? 1 - body.soft->twinLoss : 0;
-    // What was proven says how fast the body may swing as well: no faster than 4 kStableLoad provenRate² says.
-    const double swings =
-        proven ? kStableLoad * mesh.provenRate * mesh.provenRate : std::numeric_limits<double>::infinity();
-    const auto elastic = [&](Index n) { return std::min(bounds.elastic(n), swings); };
     const auto stable = [&](Index n) {
-        if (!twin) return (proven || bounds.stable(n, h)) && h * h * elastic(n) <= kMostElastic;
+        if (!twin) return proven || bounds.stable(n, h);
         return h * h * bounds.elastic(n) + beside <= 1 + left * std::max(0.0, 1 - 2 * h * bounds.damping(n));
     };
     const auto share = [&](Index n) {
-        return stable(n) ? 1.0 : std::min(1.0, (kMostElastic - beside) / (h * h * elastic(n)));
+        return stable(n) ? 1.0 : std::min(1.0, (1 - beside) / (h * h * bounds.elastic(n)));
     };
     load_.assign(mesh.nodes.count, 0.0);
     for (Index k = 0; k < mesh.springs.count; ++k) {
@@ -187,8 +183,8 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
     const double most = twin ? 0.5 : 1;  // see soft/twins.hpp
     for (Index k = 0; k < mesh.nodes.count; ++k) {
         const Index node = mesh.nodes.first + k;
-        const double load = h * h * elastic(node);
-        const double room = std::min(1 - 0.5 * (stable(node) ? load : std::min(load, kMostElastic)), most);
+        const double elastic = h * h * bounds.elastic(node);
+        const double room = std::min(1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0)), most);
         load_[k] = !proven && load_[k] > room ? room / load_[k] : 1;
     }
     for (Index k = 0; k < mesh.springs.count; ++k) {

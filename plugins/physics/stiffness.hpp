@@ -24,9 +24,8 @@
 //
 // The substep is chosen to keep it, and to swing in time: 1 % in frequency
 // for omega h <= 0.5. Where that would take more substeps than allowed, the springs of the stiffest nodes are softened
-// to h² S = 1 and no further, so that nothing swings much wider than it should (kMostElastic); what they lose acts on
-// as damping (as the implicit part of an implicit spring would), and dampers are held to the rest of the bound. Nothing
-// explodes, and what is soft enough stays exact.
+// to h² S = 1 and no further, what they lose acts on as damping (as the implicit part of an implicit spring would),
+// and dampers are held to the rest of the bound. Nothing explodes, and what is soft enough stays exact.
 #pragma once
 
 #include "state.hpp"
@@ -37,11 +36,6 @@ namespace jet::physics {
 
 /// h² S + 2 h D a substep is chosen for. Below 2, because springs under pressure bend more than the bound knows.
 inline constexpr double kStableLoad = 1.95;
-
-/// h² S beyond which springs are softened. Symplectic Euler keeps the energy that swings with ½ ks e e', so what is
-/// drawn and let go swings 1 / √(1 - (ω h / 2)²) times as wide: √2 at ω h = √2 (k = 2), and without bound near 2, where
-/// it is still stable.
-inline constexpr double kMostElastic = 1;
 
 class StiffnessBounds {
 public:
