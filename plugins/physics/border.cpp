@@ -2,6 +2,9 @@
 
 #include "room.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace jet::physics {
 
 namespace {
@@ -32,21 +35,89 @@ void addRing(State& state, std::span<const Index> ring)
     }
 }
 
+/// To one side of a wall, far enough to be on it.
+Vec2 stepAside(const State& state, const BodyRecord& body, const Vec2& along)
+{
+    return perpendicular(along) * (1e-7 * gridOf(state, body).bounds().size().maxCoeff() / along.norm());
+}
+
 /// A step off the middle of the wall to either side: one must be inside and the other outside, else it bounds nothing
-/// (walls that lie on each other, borders without area).
-std::int8_t outerSide(const State& state, const BodyRecord& body, Index wall)
+/// (walls that lie on each other, borders without area). Inside is what `grid` says.
+std::int8_t outerSide(const State& state, const BodyRecord& body, Index wall, const EdgeGrid& grid)
 {
     const Vec2 along = wallVector(state, body, wall);
-    const double length = along.norm();
-    const EdgeGrid& grid = gridOf(state, body);
-    const double extent = grid.bounds().size().maxCoeff();
-    if (!(length > 1e-9 * extent)) return 0;
+    if (!(along.norm() > 1e-9 * gridOf(state, body).bounds().size().maxCoeff())) return 0;
     const Vec2 middle = state.gridFrame(body)[state.walls.first[wall]] + 0.4931 * along;
-    const Vec2 aside = perpendicular(along) * (1e-7 * extent / length);
+    const Vec2 aside = stepAside(state, body, along);
     const bool plus = grid.inside(middle + aside), minus = grid.inside(middle - aside);
     if (plus == minus) return 0;
     return plus ? -1 : 1;
 }
+
+/// Rings that may lie over each other, of a body that is all that is inside any of them.
+class UnitedRings {
+public:
+    UnitedRings(const State& state, const BodyRecord& body)
+        : state_(state), body_(body), at_(state.gridFrame(body)), ringOf_(body.walls.count)
+    {
+        const Walls& walls = state.walls;
+        for (Index w = body.walls.first; w < body.walls.end();) {
+            std::vector<EdgeGrid::Edge> edges;
+            const Index start = w;
+            do {
+                ringOf_[w - body.walls.first] = grids_.size();
+                edges.push_back({at_[walls.first[w]], at_[walls.second[w]]});
+            } while (walls.next[w++] != start);
+            grids_.emplace_back().build(edges);
+        }
+    }
+
+    /// Of a wall; 0 where other rings cover all of it.
+    std::int8_t outerSide(Index wall) const
+    {
+        const std::size_t ring = ringOf_[wall - body_.walls.first];
+        const std::int8_t side = physics::outerSide(state_, body_, wall, grids_[ring]);
+        return side != 0 && grids_.size() > 1 && !isBare(wall, ring, side) ? std::int8_t{0} : side;
+    }
+
+private:
+    /// Is any part of the wall outside all other rings?
+    bool isBare(Index wall, std::size_t ring, int side) const
+    {
+        constexpr double kLeastPart = 1e-6;
+        const Vec2 along = wallVector(state_, body_, wall);
+        const Vec2 from = at_[state_.walls.first[wall]] + side * stepAside(state_, body_, along), to = from + along;
+        // Where the sides of other rings may cross it.
+        std::vector<double> cuts{0, 1};
+        Box reach;
+        reach.extend(from), reach.extend(to);
+        gridOf(state_, body_).visit(reach, [&](std::uint32_t index) {
+            if (ringOf_[index] == ring) return;
+            const Index other = body_.walls.first + index;
+            const Vec2 start = at_[state_.walls.first[other]] - from, edge = wallVector(state_, body_, other);
+            const double turn = cross(along, edge);
+            if (std::abs(turn) > 1e-12 * along.norm() * edge.norm()) cuts.push_back(cross(start, edge) / turn);
+            for (const Vec2& end : {start, Vec2(start + edge)}) cuts.push_back(end.dot(along) / along.squaredNorm());
+        });
+        std::erase_if(cuts, [](double t) { return !(t >= 0 && t <= 1); });
+        std::sort(cuts.begin(), cuts.end());
+        for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+            if (cuts[i + 1] - cuts[i] < kLeastPart) continue;
+            const Vec2 middle = from + 0.5 * (cuts[i] + cuts[i + 1]) * along;
+            const auto covers = [&](const EdgeGrid& other) {
+                return &other != &grids_[ring] && other.bounds().contains(middle) && other.inside(middle);
+            };
+            if (std::none_of(grids_.begin(), grids_.end(), covers)) return true;
+        }
+        return false;
+    }
+
+    const State& state_;
+    const BodyRecord& body_;
+    const std::vector<Vec2>& at_;
+    std::vector<std::size_t> ringOf_;  // [walls]
+    std::vector<EdgeGrid> grids_;      // [rings]
+};
 
 /// Every particle collides, those inside its body too: hardly ever does one meet anything, but when a body is squashed
 /// flat they keep it from being pressed through a wall. Vertices of rigid borders collide where they end a wall.
@@ -103,14 +174,21 @@ void updateCorners(State& state, const BodyRecord& body)
     }
 }
 
-void addBorders(State& state, BodyRecord& body, std::span<const std::vector<Index>> rings)
+void addBorders(State& state, BodyRecord& body, std::span<const std::vector<Index>> rings, Inside inside)
 {
     body.walls.first = static_cast<Index>(state.walls.size());
     for (const auto& ring : rings)
         if (ring.size() >= 3) addRing(state, ring);
     body.walls.count = static_cast<Index>(state.walls.size()) - body.walls.first;
     rebuildGrid(state, body);
-    for (Index w = body.walls.first; w < body.walls.end(); ++w) state.walls.outward[w] = outerSide(state, body, w);
+    Walls& walls = state.walls;
+    if (inside == Inside::AnyRing && rings.size() > 1) {
+        const UnitedRings united(state, body);
+        for (Index w = body.walls.first; w < body.walls.end(); ++w) walls.outward[w] = united.outerSide(w);
+    } else {
+        const EdgeGrid& grid = gridOf(state, body);
+        for (Index w = body.walls.first; w < body.walls.end(); ++w) walls.outward[w] = outerSide(state, body, w, grid);
+    }
     markCollidable(state, body);
     updateCorners(state, body);
 }

@@ -7,10 +7,13 @@
 
 namespace jet::physics {
 
+/// What a body's rings bound: all that is inside an odd number of them, as drawn, or inside any, as of shapes.
+enum class Inside { OddRings, AnyRing };
+
 /// Appends the walls of `rings` (indices of points, each ring closed) to `body`, finds their outer sides, and says
 /// which points collide. Points of zero-length walls and of borders without area end up without walls; nothing is
 /// refused.
-void addBorders(State&, BodyRecord& body, std::span<const std::vector<Index>> rings);
+void addBorders(State&, BodyRecord& body, std::span<const std::vector<Index>> rings, Inside = Inside::OddRings);
 
 /// Corner kinds of the walls and normals of the points, in the frame of the body's grid.
 void updateCorners(State&, const BodyRecord& body);

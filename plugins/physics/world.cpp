@@ -150,7 +150,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     nodes.addRigid(def.mass);
     body.single = isSingle(def);
     const std::vector<std::vector<Vec2>> outlines = outlinesOf(def);
-    if (!lean_ || !body.single) keepOutline(body, outlines);
+    if (!lean_ || !body.single) keepOutline(body, outlines, def.shapes.empty() ? Inside::OddRings : Inside::AnyRing);
     setRigidMass(handle, def, outlines);
     if (body.simple) {
         body.grid.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actuators.hpp"
+#include "border.hpp"
 #include "contact_finder.hpp"
 #include "contact_solver.hpp"
 #include "force_fields.hpp"
@@ -91,7 +92,7 @@ private:
     void addPoint(const BodyRecord&, Index node, const Vec2& local, const Vec2& position);
     void keepNormals();
     // Outlines, see world_outlines.cpp.
-    void keepOutline(BodyRecord&, const std::vector<std::vector<Vec2>>& outlines);
+    void keepOutline(BodyRecord&, const std::vector<std::vector<Vec2>>& outlines, Inside);
     void copyOutline(BodyRecord&, const Points&, const Walls&);
     void outlineAll();
     void tellOutlines();

@@ -12,7 +12,7 @@
 namespace jet::physics {
 
 /// Appends points and walls to the body, which is the last of those that have any.
-void World::keepOutline(BodyRecord& body, const std::vector<std::vector<Vec2>>& outlines)
+void World::keepOutline(BodyRecord& body, const std::vector<std::vector<Vec2>>& outlines, Inside inside)
 {
     body.points.first = static_cast<Index>(state_.points.size());
     Points& points = state_.points;
@@ -24,7 +24,7 @@ void World::keepOutline(BodyRecord& body, const std::vector<std::vector<Vec2>>& 
         for (const Vec2& at : outline) addPoint(body, body.nodes.first, at, at);
     }
     body.points.count = static_cast<Index>(points.size()) - body.points.first;
-    addBorders(state_, body, rings);
+    addBorders(state_, body, rings, inside);
 }
 
 /// Points and walls in the order of bodies, for all of them.
@@ -38,7 +38,7 @@ void World::outlineAll()
     for (BodyRecord& body : state_.bodies) {
         if (body.isLean()) {
             const PartRing ring = ringOf(rigid_.onlyPart(static_cast<Index>(&body - state_.bodies.data())));
-            keepOutline(body, {{ring.points.begin(), ring.points.begin() + ring.count}});
+            keepOutline(body, {{ring.points.begin(), ring.points.begin() + ring.count}}, Inside::AnyRing);
             body.grid.reset();
         } else {
             copyOutline(body, points, walls);
