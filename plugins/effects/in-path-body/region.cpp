@@ -38,8 +38,10 @@ Region::Region(const std::vector<Ring>& rings)
     tolerance_ = 1e-9 * std::max(bounds_.width(), bounds_.height());
     bands_.resize(std::clamp<std::size_t>(walls_.size(), 1, kMostBands));
     if (bounds_.height() > 0) bandHeight_ = bounds_.height() / static_cast<double>(bands_.size());
-    for (std::uint32_t i = 0; i < walls_.size(); ++i)
-        for (std::size_t k = band(walls_[i].box.min.y()); k <= band(walls_[i].box.max.y()); ++k) bands_[k].push_back(i);
+    for (std::uint32_t i = 0; i < walls_.size(); ++i) {
+        walls_[i].firstBand = static_cast<std::uint32_t>(band(walls_[i].box.min.y()));
+        for (std::size_t k = walls_[i].firstBand; k <= band(walls_[i].box.max.y()); ++k) bands_[k].push_back(i);
+    }
 }
 
 std::size_t Region::band(double y) const
@@ -52,13 +54,14 @@ template <class Visit>
 void Region::visitWalls(const Box& box, Visit&& visit) const
 {
     if (walls_.empty()) return;
-    const std::size_t first = band(box.min.y());
-    for (std::size_t k = first; k <= band(box.max.y()); ++k) {
+    const std::size_t first = band(box.min.y()), last = band(box.max.y());
+    for (std::size_t k = first; k <= last; ++k) {
         wallsSeen_ += bands_[k].size();
         for (const std::uint32_t index : bands_[k]) {
             const Wall& wall = walls_[index];
-            if (k != std::max(first, band(wall.box.min.y()))) continue;  // seen in an earlier band
-            if (wall.box.intersects(box) && !visit(wall)) return;
+            if (!wall.box.intersects(box)) continue;
+            if (k != std::max<std::size_t>(first, wall.firstBand)) continue;  // seen in an earlier band
+            if (!visit(wall)) return;
         }
     }
 }

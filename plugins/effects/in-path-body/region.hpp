@@ -38,6 +38,7 @@ private:
     struct Wall {
         Vec2 a, b;
         Box box;
+        std::uint32_t firstBand = 0;  // that its box meets
     };
 
     std::size_t band(double y) const;
