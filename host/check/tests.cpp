@@ -42,7 +42,7 @@ constexpr std::array kTests = {
          testEffectEdits},
     Test{"saving", "scenes with it are saved, opened and saved again to equal bytes", K::Effect, 30, 1024, false,
          testEffectSaving},
-    Test{"painting", "what it paints is finite and balanced, for any path and any values in range", K::Effect, 30, 1024,
+    Test{"painting", "what it paints is finite and balanced, for any path and any values in range", K::Effect, 90, 1024,
          false, testEffectPainting},
     Test{"alone", "without optional plugins and engines", K::Effect, 30, 1024, false, testEffectAlone},
     Test{"bodies", "the bodies it builds are sound, and play", K::Effect, 90, 1024, false, testEffectBodies},
