@@ -50,7 +50,10 @@ std::string listText(const std::vector<std::string>& words)
 std::string shown(const Value& value, const std::string& unit)
 {
     std::string text = value.text();
-    if (text.size() > 60) text = text.substr(0, 60) + "…";
+    if (text.size() > 60) {
+        text.resize(60);
+        text += "…";
+    }
     const ValueKind kind = value.kind();
     if (kind == ValueKind::Text || kind == ValueKind::Raw) return '"' + text + '"';
     return unit.empty() || text.empty() ? text : text + ' ' + unit;
