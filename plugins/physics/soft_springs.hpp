@@ -34,6 +34,7 @@ public:
     double stableRate(const StiffnessBounds&, const BodyRecord&, Index body) const;
     /// Substeps a second at which they swing in time.
     double swingRate(const StiffnessBounds&, const BodyRecord&, Index body) const;
+    WideSwing wideSwing(const StiffnessBounds&, const BodyRecord&, Index body) const;
     /// Fixes what depends on the length of a substep.
     /// `plain`: stiffness and damping as they are, whatever comes of it.
     void prepare(const State&, const StiffnessBounds&, double h, bool plain = false);

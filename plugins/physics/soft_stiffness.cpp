@@ -126,6 +126,17 @@ double SoftSprings::stableRate(const StiffnessBounds& bounds, const BodyRecord& 
     return proven > 0 ? proven : bounds.stableRate(body.nodes);
 }
 
+WideSwing SoftSprings::wideSwing(const StiffnessBounds& bounds, const BodyRecord& body, Index handle) const
+{
+    if (handle >= meshes_.size() || body.rigid || body.hasTwin()) return {};
+    const Mesh& mesh = meshes_[handle];
+    double fastest = bounds.fastest(body.nodes);
+    if (mesh.fastestAtRest > 0) fastest = std::min(fastest, mesh.fastestAtRest);
+    if (!(mesh.provenRate > 0)) return {bounds.stableRate(body.nodes, 2), fastest / kWidePhase};
+    fastest = std::min(fastest, std::sqrt(2 * kStableLoad) * mesh.provenRate);
+    return {mesh.provenRate, fastest / kWidePhase};
+}
+
 /// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
 /// Weights serve bodies whose springs pull in many directions and are taken as they are: to a lone spring the bound
 /// with weights is exact, and one softened to it would ring on.
@@ -156,7 +167,7 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
                               const BodyRecord& body, double h)
 {
     const Nodes& nodes = state.nodes;
-    const bool proven = mesh.provenRate > 0 && h * mesh.provenRate <= 1 + 1e-9;
+    const bool proven = mesh.provenRate > 0 && std::max(h, bounds.longest()) * mesh.provenRate <= 1 + 1e-9;
     // With a twin: see soft/twins.hpp.
     const bool twin = body.hasTwin();
     const double beside = twin ? h * h * body.soft->twinRate / 2 : 0, left = twin ? 1 - body.soft->twinLoss : 0;

@@ -71,17 +71,24 @@ public:
         return std::sqrt(2 * most);
     }
     /// Substeps a second at which every spring and damper of these nodes may act as it is.
-    double stableRate(Range nodes) const
+    double stableRate(Range nodes, double load = kStableLoad) const
     {
         double most = 0;
         for (Index n = nodes.first; n < nodes.end(); ++n)
-            most = std::max(most, damping(n) + std::sqrt(damping(n) * damping(n) + kStableLoad * elastic(n)));
-        return most / kStableLoad;
+            most = std::max(most, damping(n) + std::sqrt(damping(n) * damping(n) + load * elastic(n)));
+        return most / load;
     }
     double elastic(Index node) const { return static_cast<double>(elastic_[node]); }
     double damping(Index node) const { return static_cast<double>(damping_[node]); }
     /// May everything at this node act as it is at substep h?
-    bool stable(Index node, double h) const { return h * h * elastic(node) + 2 * h * damping(node) <= 2; }
+    bool stable(Index node, double h) const
+    {
+        h = std::max(h, longest_);
+        return h * h * elastic(node) + 2 * h * damping(node) <= 2;
+    }
+    /// Substeps were made shorter so that what is stable swings no wider: what was not at `h` is softened still.
+    void judgeAt(double h) { longest_ = h; }
+    double longest() const { return longest_; }
     /// The part of the stiffness a spring at this node may keep at substep h.
     double share(Index node, double h) const
     {
@@ -99,6 +106,7 @@ private:
     std::vector<float> elastic_;  // S, 1 / s²
     std::vector<float> damping_;  // D, 1 / s
     std::vector<float> weight_;   // w
+    double longest_ = 0;          // seconds
 };
 
 /// omega h up to which springs swing in time: 0.5, 1 % of the frequency. In large bodies this is for their slower
@@ -115,7 +123,26 @@ inline constexpr double kVastPhase = 1.06;
 inline constexpr double kContactRate = 480;       // substeps a second, at least
 inline constexpr double kLargeContactRate = 300;  // in worlds of many particles: deeper overlaps, a third faster
 inline constexpr std::size_t kLargeWorld = 2048;  // nodes
-inline constexpr double kHighestRate = 1920;      // and at most
+inline constexpr double kHighestRate = 1920;      // and at most, but see WideSwing
+
+/// What swings at omega without damping swings 1 / sqrt(1 - (omega h)² / 4) times as wide as it was drawn, or as a push
+/// would have it: the energy that symplectic Euler keeps is not quite that of the spring. Where kHighestRate is the
+/// least at which springs may act as they are that is any number, so they get substeps for sqrt(2). Softening them
+/// would cost none, but what is held softer than it was asked for is wrong for ever, not only while it swings.
+struct WideSwing {
+    double kept = 0;  // substeps a second from which on the springs of a body act as they are
+    double calm = 0;  // and at which they swing no wider than that
+};
+inline constexpr double kWidePhase = 1.4142135623730951;  // omega h
+
+/// Substeps for a step of dt that would have `count`.
+inline int calmed(int count, double dt, const std::vector<WideSwing>& swings)
+{
+    double most = count;
+    for (const WideSwing& swing : swings)
+        if (swing.kept * dt <= count * (1 + 1e-9)) most = std::max(most, std::ceil(dt * swing.calm - 1e-9));
+    return static_cast<int>(most);
+}
 
 /// Substeps for a step of dt at `rate` substeps a second.
 inline int substepsFor(double dt, double rate, std::size_t nodes)

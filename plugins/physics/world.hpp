@@ -205,9 +205,10 @@ private:
     std::size_t savedBytes_ = 4096;  // of the last state that was saved
 
     StiffnessBounds bounds_;
-    double rate_ = -1;             // substeps / s the springs want; < 0: not known since something was added
-    bool plain_ = false;           // as the thesis has it: Method::SemiImplicitEuler
-    double preparedFor_ = 0;       // substep the springs are prepared for, seconds
+    double rate_ = -1;        // substeps / s the springs want; < 0: not known since something was added
+    bool plain_ = false;      // as the thesis has it: Method::SemiImplicitEuler
+    double preparedFor_ = 0;  // substep the springs are prepared for, seconds
+    std::vector<WideSwing> wideSwings_;
     double impulsesOf_ = 0;        // substep the impulses of contacts and joints are of, seconds
     std::uint64_t pairsOf_ = 0;    // mark of the table of materials by which they were found,
     std::uint64_t tableMark_ = 0;  // and of that in force

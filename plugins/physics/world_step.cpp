@@ -86,11 +86,13 @@ void World::stepPart(double dt)
     refresh();
     prepareStiffness();
     const bool plain = settings_.method == Method::SemiImplicitEuler;
-    const int count = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size());
+    const int least = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size());
+    const int count = plain ? 1 : calmed(least, dt, wideSwings_);
     stats_.substeps = static_cast<std::uint32_t>(count);
     const double h = dt / count;
-    if (h != preparedFor_ || plain != plain_) {
+    if (h != preparedFor_ || plain != plain_ || dt / least != bounds_.longest()) {
         plain_ = plain;
+        bounds_.judgeAt(dt / least);
         soft::Twins::prepare(state_, h);
         springs_.prepare(state_, bounds_, h, plain);
         actuators_.prepare(bounds_, h, plain);
@@ -157,10 +159,13 @@ void World::prepareStiffness()
     springs_.addTo(bounds_, state_, !actuators_.anySpring());
     actuators_.addTo(bounds_, state_);
     rate_ = 0;
+    wideSwings_.clear();
     for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
         const BodyRecord& body = state_.bodies[handle];
         const double stable = springs_.stableRate(bounds_, body, handle);
         rate_ = std::max(rate_, soft::Twins::rate(body, std::max(stable, springs_.swingRate(bounds_, body, handle))));
+        const WideSwing wide = springs_.wideSwing(bounds_, body, handle);
+        if (wide.calm > kHighestRate) wideSwings_.push_back(wide);
     }
     preparedFor_ = 0;
 }

@@ -18,7 +18,9 @@ constexpr int kPasses = 2;
 constexpr double kFarLengths = 0.03, kFarTurn = 0.06;
 constexpr double kTurn = 0.5;      // radians that a push turns a patch by at most
 constexpr double kSettling = 0.5;  // seconds
-constexpr int kNearest = 6;        // particles that hold a point which is none
+// How a patch that is not like its shape at rest, or was not, turns to the best fit of that: rad / s.
+constexpr double kFollow = 2, kRecover = 0.2;
+constexpr int kNearest = 6;  // particles that hold a point which is none
 
 std::string nameOf(JointDef::Kind kind)
 {
@@ -69,6 +71,7 @@ Joints::Hold Joints::hold(const State& state, const Anchor& anchor)
         const MassSums sums = massSums(
             state.nodes, hold.nodes.size(), [&](std::size_t i) { return hold.nodes[i]; }, nullptr);
         for (const Index n : hold.nodes) hold.rest.push_back(state.nodes.position[n] - sums.centre);
+        hold.gyration = sums.mass > 0 ? sums.inertia / sums.mass : 0;
     }
     const Pose pose = poseOf(state, hold);
     hold.angle = pose.angle;
@@ -122,7 +125,7 @@ Index Joints::add(const State& state, const JointDef& def)
     return static_cast<Index>(joints_.size() - 1);
 }
 
-Joints::Pose Joints::poseOf(const State& state, const Hold& hold)
+Joints::Pose Joints::poseOf(const State& state, const Hold& hold, double moved)
 {
     const Nodes& nodes = state.nodes;
     Pose pose;
@@ -139,12 +142,37 @@ Joints::Pose Joints::poseOf(const State& state, const Hold& hold)
     const bool held = std::any_of(hold.nodes.begin(), hold.nodes.end(), [&](Index n) { return nodes.invMass[n] == 0; });
     if (!held) pose.invMass = 1 / sums.mass;
     const double fit = std::sqrt(sums.along * sums.along + sums.across * sums.across);
-    if (hold.nodes.size() < 2 || !(sums.inertia > 0) || !(fit > 0)) return pose;
+    if (hold.nodes.size() < 2) return pose;
+    if (!(sums.inertia > 0) || !(fit > 0)) {
+        pose.angle = hold.angle, pose.lag = hold.lag, pose.rotation = direction(hold.angle);
+        return pose;
+    }
     pose.rotation = Vec2(sums.along, sums.across) / fit;
     pose.angle = hold.angle + wrapped(angleOf(sums.across, sums.along) - hold.angle);
     pose.omega = sums.omega();
+    follow(hold, fit * fit / (sums.inertia * sums.mass * hold.gyration), moved, pose);
     if (!held) pose.invInertia = 1 / sums.inertia;
     return pose;
+}
+
+/// The best fit of a patch that is crushed turns over at once, though nothing in it turns: joints and their springs
+/// would do work that nobody paid for. So an angle goes on by the angular velocity of the patch, the one that joints
+/// work against, and by what else the fit turned only as far as the patch is like its shape at rest (`likeness`: the
+/// squared coefficient of correlation of the two). What it lags behind it makes up for slowly.
+void Joints::follow(const Hold& hold, double likeness, double moved, Pose& pose)
+{
+    // Of a rigid patch over the move, as its moment of inertia grows with it: tan = omega h before, sin 2x after.
+    const double sine = std::clamp(2 * moved * pose.omega, -1.0, 1.0);
+    const double turned = 0.5 * angleOf(sine, std::sqrt(1 - sine * sine));
+    const double off = wrapped(pose.angle - hold.lag - hold.angle - turned);
+    const double most = moved * kFollow * likeness / std::max(1 - likeness, 1e-9);
+    if (hold.lag == 0 && (moved == 0 || std::abs(off) <= most)) return;
+    const double followed = std::clamp(off, -most, most);
+    pose.lag = wrapped(hold.lag + off - followed);
+    const double recovered = std::clamp(pose.lag, -kRecover * moved, kRecover * moved);
+    pose.lag -= recovered;
+    pose.angle = hold.angle + turned + followed + recovered;
+    pose.rotation = direction(pose.angle);
 }
 
 /// Spreads what changed of the patch's motion over its particles, as of a rigid body.
@@ -265,8 +293,10 @@ void Joints::solveRows(Held& held, bool push)
 void Joints::solve(State& state, Held& held, bool push)
 {
     Joint& joint = held.joint;
-    const Pose a = poseOf(state, held.a), b = poseOf(state, held.b);
+    const double moved = push ? 0 : h_;
+    const Pose a = poseOf(state, held.a, moved), b = poseOf(state, held.b, moved);
     held.a.angle = a.angle, held.b.angle = b.angle;
+    held.a.lag = a.lag, held.b.lag = b.lag;
     joint.substep = h_;  // they have been scaled
     makeRows(held, a, b, h_);
     const auto energy = [&] { return kineticEnergy(ends_[1]) + kineticEnergy(ends_[2]); };

@@ -96,6 +96,7 @@ public:
             Joint& joint = held.joint;
             with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length), with(joint.localAxis);
             with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local), with(held.springMass);
+            with(held.a.lag), with(held.b.lag);
             with(held.settling);
             JointDef& def = joint.def;
             with(def.driven), with(def.motorSpeed), with(def.motorVelocity), with(def.limited), with(def.lower);
@@ -113,6 +114,8 @@ private:
         std::vector<Vec2> rest;  // particles from their centre of mass, when the joint was added
         Vec2 local;              // the anchored point, from the centre, in the patch's frame; background: the scene's
         double angle = 0;        // radians since, unwrapped
+        double lag = 0;          // radians that the best fit of its shape is ahead
+        double gyration = 0;     // units²: moment of inertia a mass, at rest
 
         bool background() const { return nodes.empty(); }
         bool turns() const { return background() || rigid || nodes.size() > 1; }
@@ -120,6 +123,7 @@ private:
     struct Pose {
         Vec2 centre = Vec2(0, 0), velocity = Vec2(0, 0), rotation = Vec2(1, 0);
         double angle = 0, omega = 0, invMass = 0, invInertia = 0;
+        double lag = 0;  // as of Hold
     };
     struct Held {
         Joint joint;  // a and b: 0 the background, else 1 and 2
@@ -136,7 +140,9 @@ private:
 
     static Hold hold(const State&, const Anchor&);
     static void requireDirection(const JointDef&, const Hold& a, const Hold& b);
-    static Pose poseOf(const State&, const Hold&);
+    /// moved: seconds by which particles moved since the hold's angle was known.
+    static Pose poseOf(const State&, const Hold&, double moved = 0);
+    static void follow(const Hold&, double likeness, double moved, Pose&);
     static void give(State&, const Hold&, const Pose& before, const BodyState<double>& after);
     static JointFrame frame(const Held&, const Pose& a, const Pose& b);
     bool settle(Held&, double dt);

@@ -6,30 +6,30 @@ namespace jet::physics::test {
 
 namespace {
 
-/// Kinetic energy and weight of the soft bodies of a world, from what it tells.
+/// Kinetic energy and weight of the particles of a world, from where it tells that they are.
 class Energy {
 public:
     Energy(PhysicsWorld& world, double gravity) : world_(world), gravity_(gravity) {}
 
     void add(const SoftBodyDef& def)
     {
-        double mass = 0;
+        masses_.insert(masses_.end(), def.masses.begin(), def.masses.end());
         for (std::size_t i = 0; i < def.masses.size(); ++i)
-            mass += def.masses[i], start_ -= gravity_ * def.masses[i] * def.particles[i].y();
-        masses_.push_back(mass);
-        weight_ += gravity_ * mass;
+            weight_ += gravity_ * def.masses[i], start_ -= gravity_ * def.masses[i] * def.particles[i].y();
+        places_.insert(places_.end(), def.particles.begin(), def.particles.end());
         world_.addSoftBody(def);
     }
     double weight() const { return weight_; }
-    /// After a step: of the bodies as wholes, never more than there is; less what there was at the start.
+    /// After a step: of the mean velocities over it, never more than there is; less what there was at the start.
     double step(double dt)
     {
         world_.step(dt);
         const BodyStates now = world_.bodies();
         double kinetic = 0, held = -start_;
         for (std::size_t i = 0; i < masses_.size(); ++i) {
-            kinetic += 0.5 * masses_[i] * now.velocity[i].squaredNorm();
-            held -= gravity_ * masses_[i] * now.position[i].y();
+            kinetic += 0.5 * masses_[i] * ((now.points[i] - places_[i]) / dt).squaredNorm();
+            held -= gravity_ * masses_[i] * now.points[i].y();
+            places_[i] = now.points[i];
         }
         fell_ = std::max(fell_, -held);
         return kinetic + held;
@@ -48,7 +48,8 @@ public:
 private:
     PhysicsWorld& world_;
     double gravity_;
-    std::vector<double> masses_;  // [bodies]
+    std::vector<double> masses_;  // [particles]
+    std::vector<Vec2> places_;
     double weight_ = 0, start_ = 0, fell_ = 0;
 };
 
@@ -115,23 +116,43 @@ TEST(SoftEnergy, BodiesThatKeepTheirAreaGainNothingFromJointsThatPressThem)
     }
 }
 
+/// A patch that is crushed turns over at once, and its best fit with it; no spring is wound by that.
+TEST(SoftEnergy, AnElasticWeldToAPatchThatIsCrushedGainsNothing)
+{
+    for (const double hertz : {12.0, 60.0}) {
+        for (const JointDef::Kind beside : {JointDef::Kind::Weld, JointDef::Kind::Revolute}) {
+            auto world = makeWorld({0, 50});
+            Energy energy(*world, 50);
+            for (int i = 0; i < 2; ++i) {
+                SoftBodyDef def = unevenBall({45.0 * i, 0}, 4e4, 1e4);
+                def.matter.yield = 0.01, def.matter.creep = 500, def.matter.mostFlow = 0.5;
+                energy.add(def);
+            }
+            JointDef weld = hold(JointDef::Kind::Weld, {22, 0}, 0, 25, 1, 25);
+            weld.hertz = hertz, weld.dampingRatio = 0.05;
+            world->addJoint(weld);
+            world->addJoint(hold(beside, {-12, 3}, kNoHandle, 0, 0, 22));
+            EXPECT_LT(energy.mostGain(6, 1.0 / 60, kSize), 0.1) << hertz << " beside " << static_cast<int>(beside);
+        }
+    }
+}
+
 /// A motor gives force times way, and joints beside it do not multiply that.
 TEST(SoftEnergy, WhatAMotorDrivesHasNoMoreThanItGave)
 {
-    for (const double ks : {0.01, 1.0}) {
+    for (const double ks : {0.01, 0.1}) {
         for (const double ratio : {1e2, 1e4}) {
-            constexpr double kForce = 3, kTorque = 30, kSpeed = 8, kSeconds = 6;
+            constexpr double kForce = 3, kSpeed = 8, kSeconds = 6;
             auto world = makeWorld({0, 13});
             Energy energy(*world, 13);
-            SoftBodyDef def = unevenBall({0, 0}, ks, ratio);
-            energy.add(def);
-            JointDef wheel = hold(JointDef::Kind::Wheel, {5, 2}, kNoHandle, 0, 0, 14);
-            wheel.axis = {0.6, 0.8}, wheel.driven = true, wheel.motorSpeed = kSpeed, wheel.maxTorque = kTorque;
-            world->addJoint(wheel);
+            energy.add(unevenBall({0, 0}, ks, ratio));
+            JointDef rail = hold(JointDef::Kind::Prismatic, {5, 2}, kNoHandle, 0, 0, 14);
+            rail.axis = {0.6, 0.8}, rail.driven = true, rail.motorSpeed = kSpeed, rail.maxForce = kForce;
+            world->addJoint(rail);
             world->addJoint(hold(JointDef::Kind::Revolute, {-12, -2}, kNoHandle, 0, 0, 10));
             EXPECT_LT(energy.mostGain(kSeconds, 1.0 / 120, kSize),
-                      0.1 + kTorque * kSpeed * kSeconds / (energy.weight() * kSize))
-                << ks << " " << ratio << " " << kForce;
+                      0.1 + kForce * kSpeed * kSeconds / (energy.weight() * kSize))
+                << ks << " " << ratio;
         }
     }
 }

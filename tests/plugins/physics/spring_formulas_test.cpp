@@ -117,6 +117,49 @@ TEST(SpringFormulas, AtTheDefaultStepEachSubstepTurnsAnUndampedSpringByTwiceTheA
     }
 }
 
+/// Symplectic Euler swings 1 / sqrt(1 - (w h)² / 4) times as wide as it was drawn, but no spring more than sqrt(2)
+/// times for it; whatever of it is seen, and no spring is softer at rest for it.
+TEST(SpringFormulas, NothingSwingsMuchWiderThanItWasDrawn)
+{
+    constexpr double kDrawn = 0.1;
+    for (const double step : {1.0 / 30, kStep, 1.0 / 1000}) {
+        for (const int count : {1, 24}) {
+            for (double rate = 2300; rate < 4200; rate += 100) {
+                auto world = makeWorld({0, 0});
+                world->addSoftBody(pairs(count, rate * rate * kReduced, 0, kDrawn));
+                double most = 0;
+                for (int i = 0; i < 600; ++i) {
+                    world->step(step);
+                    most = std::max(most, std::abs(stretchOf(*world, count / 2)));
+                }
+                EXPECT_LT(most, 1.43 * kDrawn) << rate << " rad/s, step " << step << ", pairs " << count;
+            }
+        }
+    }
+}
+
+TEST(SpringFormulas, ASpringThatSwingsInShorterSubstepsIsAsStiffAtRest)
+{
+    // Hung at 0, so that what its mean is longer than at rest is m g / ks.
+    constexpr double kGravity = 1000;
+    for (const double rate : {2000.0, 2300.0, 2600.0, 2700.0}) {
+        auto world = makeWorld({0, kGravity});
+        SoftBodyDef def;
+        def.particles = {{0, 0}, {0, kRest}};
+        def.masses = {1, 1}, def.movable = {0, 1};
+        def.springs.push_back({0, 1, kRest, rate * rate, 0, 0});
+        world->addSoftBody(def);
+        double sum = 0;
+        constexpr int kSteps = 2000;
+        for (int i = 0; i < kSteps; ++i) {
+            world->step(kStep);
+            sum += (pointsOf(*world, 0)[1] - pointsOf(*world, 0)[0]).norm() - kRest;
+        }
+        const double sag = kGravity / (rate * rate);
+        EXPECT_NEAR(sum / kSteps, sag, 0.05 * sag) << rate;
+    }
+}
+
 TEST(SpringFormulas, AtTheDefaultStepSpringsTooStiffForItsSubstepsComeToRestWithinTwoSteps)
 {
     for (const int count : {1, 24}) {
