@@ -3,8 +3,10 @@
 #include "validation.hpp"
 #include "world.hpp"
 
+#include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>
 #include <box2d/b2_distance.h>
+#include <box2d/b2_edge_shape.h>
 #include <box2d/b2_fixture.h>
 
 namespace jet::box2d {
@@ -103,9 +105,34 @@ struct Caster {
             box.extend(p + Vec2(shape.radius, shape.radius) * round);
         }
     }
+    b2Vec2 middle() const
+    {
+        b2Vec2 sum(0, 0);
+        for (const b2Vec2& p : points) sum += (1.0F / static_cast<float>(points.size())) * p;
+        return sum;
+    }
+
     std::vector<b2Vec2> points;
     b2DistanceProxy proxy;
     Box box;
+};
+
+/// Chains hold on one side, also what is cast.
+struct Front {
+    Front(const b2Fixture& fixture, int32 child)
+    {
+        if (fixture.GetType() != b2Shape::e_chain) return;
+        b2EdgeShape edge;
+        static_cast<const b2ChainShape*>(fixture.GetShape())->GetChildEdge(&edge, child);
+        const b2Transform& at = fixture.GetBody()->GetTransform();
+        first = b2Mul(at, edge.m_vertex1);
+        out = b2Cross(b2Mul(at, edge.m_vertex2) - first, 1.0F);
+        out.Normalize();
+    }
+    bool isBefore(const b2Vec2& point) const { return b2Dot(out, point - first) >= 0; }
+    bool faces(const b2Vec2& normal) const { return b2Dot(out, normal) > -1e-3F; }
+
+    b2Vec2 first{0, 0}, out{0, 0};
 };
 
 }  // namespace
@@ -136,6 +163,8 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
     eachFixture(*stage_, filter, swept, [&](const b2Fixture& fixture) {
         const BodyHandle body = handleOf(*fixture.GetBody());
         for (int32 child = 0; child < fixture.GetShape()->GetChildCount(); ++child) {
+            const Front front(fixture, child);
+            if (!front.isBefore(caster.middle())) continue;
             const b2DistanceInput near = distanceTo(fixture, child, caster.proxy);
             const b2DistanceOutput start = distanceOf(near, true);
             if (!(start.distance > 0)) {  // it begins there
@@ -151,7 +180,7 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
             input.transformA = near.transformA, input.transformB = near.transformB;
             input.translationB = metres(way);
             b2ShapeCastOutput hit;
-            if (!b2ShapeCast(&hit, &input) || hit.lambda > 1) continue;
+            if (!b2ShapeCast(&hit, &input) || hit.lambda > 1 || !front.faces(hit.normal)) continue;
             const Vec2 normal(static_cast<double>(hit.normal.x), static_cast<double>(hit.normal.y));
             take({body, units(hit.point), normal, static_cast<double>(hit.lambda)});
         }

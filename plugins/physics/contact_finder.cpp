@@ -25,7 +25,7 @@ double millisecondsSince(std::chrono::steady_clock::time_point start)
 
 bool meetsItself(const BodyRecord& body)
 {
-    return body.meetsOwn() && !body.fixed && body.enabled && body.walls.count > 0;
+    return body.meetsOwn() && !body.fixed && !body.kinematic && body.enabled && body.walls.count > 0;
 }
 
 /// In the midst of a step.
@@ -199,7 +199,8 @@ bool ContactFinder::isSlow(const State& state, const BodyPair& pair, double dt) 
 void ContactFinder::splitPairs(const State& state, double dt)
 {
     const auto wide = [&](const BodyPair& pair) {
-        return state.bodies[pair.a].wide && state.bodies[pair.b].wide && isSlow(state, pair, dt);
+        return state.bodies[pair.a].wide && state.bodies[pair.b].wide && !state.filters[pair.a].isOneSided() &&
+               !state.filters[pair.b].isOneSided() && isSlow(state, pair, dt);
     };
     for (Index body = 0; body < state.bodies.size(); ++body)
         if (meetsItself(state.bodies[body])) pairs_.push_back({body, body});

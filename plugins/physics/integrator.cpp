@@ -38,7 +38,7 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
                 springs.kernels().accelerate(nodes.velocity[first].data(),
                                              anyForces ? nodes.force[first].data() : nullptr, &nodes.invMass[first],
                                              body.nodes.count, {h, gravity.x(), gravity.y(), linear});
-            if (angular != 1 && !body.fixed) dampTurning(nodes, body, angular);
+            if (angular != 1 && !body.fixed && !body.kinematic) dampTurning(nodes, body, angular);
             continue;
         }
         if (nodes.invMass[first] > 0 && !body.asleep) {
@@ -75,7 +75,7 @@ void integratePositions(State& state, const SoftSprings& springs, double h)
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         const Index first = body.nodes.first;
-        if (body.nodes.count == 0 || body.fixed) continue;
+        if (body.nodes.count == 0 || body.fixed || body.kinematic) continue;
         if (!body.rigid) {
             springs.advance(state, handle, h);
             continue;

@@ -2,6 +2,7 @@
 
 #include "border.hpp"
 #include "outline.hpp"
+#include "query_union.hpp"
 #include "room.hpp"
 
 #include <algorithm>
@@ -25,6 +26,14 @@ int outwardOf(const ShapeDef& shape)
     for (std::size_t i = 0; i < shape.points.size(); ++i)
         area += cross(shape.points[i] - origin, shape.points[(i + 1) % shape.points.size()] - origin);
     return area > 0 ? -1 : area < 0 ? 1 : 0;
+}
+
+/// Unit, out of the body.
+Vec2 outOf(const QueryEdge& edge) { return edge.outward * perpendicular(edge.b - edge.a).stableNormalized(); }
+
+bool isBefore(const QueryEdge& edge, const Vec2& at)
+{
+    return edge.outward * perpendicular(edge.b - edge.a).dot(at - edge.a) >= 0;
 }
 
 }  // namespace
@@ -65,7 +74,8 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
             makeRoom(1, rounds_);
             rounds_.push_back({shape.points.front() - centre, shape.points.back() - centre, shape.radius});
         }
-        if (shape.kind == ShapeDef::Kind::Chain) item.walls.count = static_cast<Index>(shape.points.size() - 1);
+        item.open = shape.kind == ShapeDef::Kind::Chain;
+        if (item.open) item.walls.count = static_cast<Index>(shape.points.size() - 1);
         makeRoom(1, items_);
         items_.push_back(item);
     }
@@ -76,7 +86,7 @@ Queries::Item Queries::itemAt(std::size_t index) const
     if (index >= items_.size()) return itemOf(static_cast<Index>(index - items_.size()));
     const Kept& kept = items_[index];
     Item item;
-    item.body = kept.body, item.walls = kept.walls, item.outward = kept.outward;
+    item.body = kept.body, item.walls = kept.walls, item.outward = kept.outward, item.open = kept.open;
     item.isRound = kept.round != kNone;
     if (item.isRound) item.round = rounds_[kept.round];
     return item;
@@ -183,6 +193,7 @@ void Queries::eachEdge(const State& state, const Item& item, const Box& region, 
 bool Queries::inside(const State& state, const Item& item, const Vec2& at) const
 {
     if (item.isRound) return (at - nearestOnSegment(at, item.round.a, item.round.b)).norm() <= item.round.radius;
+    if (item.open) return false;
     if (item.part != nullptr) {
         bool behindAll = true;
         eachEdge(state, item, Box(),
@@ -196,8 +207,6 @@ bool Queries::inside(const State& state, const Item& item, const Vec2& at) const
     std::vector<EdgeGrid::Edge> edges;
     for (Index w = walls.first; w < walls.end(); ++w)
         edges.push_back({points[state.walls.first[w]], points[state.walls.second[w]]});
-    // The sides of a chain do not close.
-    if (!item.whole() && !edges.empty() && state.walls.next[walls.end() - 1] != walls.first) return false;
     return insideOdd(edges, at);
 }
 
@@ -303,9 +312,10 @@ bool Queries::overlaps(const State& state, const Item& item, const CastShape& sh
     if (item.isRound)
         return within(item.round.a, item.round.b, item.round.radius) || (shape.closed && shape.contains(item.round.a));
     bool meets = false;
-    eachEdge(state, item, shape.bounds(), [&](const QueryEdge& edge) { meets |= within(edge.a, edge.b, 0); });
-    Vec2 middle(0, 0);
-    for (const Vec2& at : shape.points) middle += at / static_cast<double>(shape.points.size());
+    const Vec2 middle = shape.middle();
+    eachEdge(state, item, shape.bounds(), [&](const QueryEdge& edge) {
+        meets |= (!item.open || isBefore(edge, middle)) && within(edge.a, edge.b, 0);
+    });
     return meets || inside(state, item, middle);
 }
 
@@ -317,8 +327,7 @@ std::optional<QueryHit> Queries::castShape(const State& state, const Item& item,
     for (Vec2& at : shape.points) at = frame.in(at);
     const Vec2 along = unrotated(frame.turn, way);
     if (overlaps(state, item, shape)) {
-        Vec2 middle(0, 0);
-        for (const Vec2& at : moved.points) middle += at / static_cast<double>(moved.points.size());
+        const Vec2 middle = moved.middle();
         // Without a way, what leads out of the body is as good a guess as any.
         Vec2 out = way.squaredNorm() > 0 ? Vec2(-way) : Vec2(middle - boxOf(state, item).center());
         if (!(out.squaredNorm() > 0)) out = Vec2(0, -1);
@@ -330,8 +339,12 @@ std::optional<QueryHit> Queries::castShape(const State& state, const Item& item,
     } else {
         Box region = shape.bounds();
         region.extend(Vec2(region.min + along)), region.extend(Vec2(region.max + along));
+        const Vec2 middle = shape.middle();
         eachEdge(state, item, region, [&](const QueryEdge& edge) {
-            const auto hit = castAt(shape, along, edge.a, edge.b, 0);
+            // A chain is solid from its front, and what starts with its middle behind a side of it comes from behind.
+            if (item.open && !isBefore(edge, middle)) return;
+            const Vec2 front = item.open ? outOf(edge) : Vec2(0, 0);
+            const auto hit = castAt(shape, along, edge.a, edge.b, 0, front);
             if (hit && (!best || hit->at < best->at)) best = hit;
         });
     }
@@ -412,18 +425,55 @@ std::optional<QueryHit> Queries::nearestOf(const State& state, const Item& item,
     return best;
 }
 
+std::optional<QueryHit> Queries::nearestFromWithin(const State& state, Index body, const Vec2& scene) const
+{
+    std::vector<CastShape> shapes;
+    Frame frame;
+    eachItem(body, [&](const Item& item) {
+        frame = frameOf(state, item);
+        CastShape& shape = shapes.emplace_back();
+        if (item.isRound) {
+            shape.points = {item.round.a, item.round.b}, shape.radius = item.round.radius;
+            return;
+        }
+        shape.closed = !item.open;
+        eachEdge(state, item, Box(), [&](const QueryEdge& edge) {
+            shape.points.push_back(edge.a);
+            if (item.open) shape.points.push_back(edge.b);
+        });
+    });
+    if (shapes.size() < 2) return std::nullopt;
+    const Vec2 point = frame.in(scene);
+    const ShapeUnion together(std::move(shapes));
+    if (!together.covers(point)) return std::nullopt;
+    auto hit = together.nearest(point);
+    if (hit) hit->point = frame.out(hit->point), hit->normal = rotated(frame.turn, hit->normal);
+    return hit;
+}
+
 std::optional<CastHit> Queries::nearest(const State& state, const Vec2& point, double reach,
                                         const QueryFilter& filter) const
 {
     std::optional<CastHit> best;
     double least = reach;
+    // Bodies of several shapes that were looked at, and what they are from within.
+    std::vector<std::pair<Index, std::optional<QueryHit>>> several;
+    const auto fromWithin = [&](Index body) {
+        const auto known =
+            std::find_if(several.begin(), several.end(), [&](const auto& is) { return is.first == body; });
+        if (known != several.end()) return known->second;
+        return several.emplace_back(body, nearestFromWithin(state, body, point)).second;
+    };
     tree_.around(
         point, [&] { return least; },
         [&](std::uint32_t index) {
             const Item item = itemAt(index);
             if (!seen(state, item.body, filter)) return;
-            const auto hit = nearestOf(state, item, point, least);
-            if (!hit || (best && (hit->at > least || (hit->at == least && item.body >= best->body)))) return;
+            const bool alone = index >= items_.size() || item.whole();
+            std::optional<QueryHit> hit = alone ? std::nullopt : fromWithin(item.body);
+            if (!hit) hit = nearestOf(state, item, point, least);
+            if (!hit || hit->at > reach || (best && (hit->at > least || (hit->at == least && item.body >= best->body))))
+                return;
             least = hit->at;
             best = CastHit{item.body, hit->point, hit->normal, reach > 0 ? hit->at / reach : 0};
         });

@@ -43,6 +43,7 @@ private:
         Index round = kNone;  // into rounds_
         Range walls;          // of a shape, from the body's first, as walls get other numbers; none: all of the body
         int outward = 0;      // of a shape's walls, whatever other shapes lie over it
+        bool open = false;    // a chain
     };
     /// All within the radius of a segment, in the body's frame.
     struct Round {
@@ -55,7 +56,7 @@ private:
         Range walls;
         int outward = 0;
         const Part* part = nullptr;  // a polygon
-        bool isRound = false;
+        bool isRound = false, open = false;
         Round round;
         bool whole() const { return !isRound && part == nullptr && walls.count == 0; }
     };
@@ -88,6 +89,8 @@ private:
     bool overlaps(const State&, const Item&, const CastShape&) const;
     bool meetsBox(const State&, const Item&, const Box&) const;
     /// Fraction is the distance.
+    /// From within a body of several shapes, to the border they have together; none: the point is not within.
+    std::optional<QueryHit> nearestFromWithin(const State&, Index body, const Vec2& point) const;
     std::optional<QueryHit> nearestOf(const State&, const Item&, const Vec2& point, double reach) const;
 
     const RigidStage* rigid_ = nullptr;

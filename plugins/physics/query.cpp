@@ -94,6 +94,13 @@ bool CastShape::contains(const Vec2& at) const
     return inside;
 }
 
+Vec2 CastShape::middle() const
+{
+    Vec2 sum(0, 0);
+    for (const Vec2& at : points) sum += at / static_cast<double>(points.size());
+    return sum;
+}
+
 Box CastShape::bounds() const
 {
     Box box;
@@ -101,14 +108,17 @@ Box CastShape::bounds() const
     return box.inflated(radius);
 }
 
-std::optional<QueryHit> castAt(const CastShape& shape, const Vec2& way, const Vec2& a, const Vec2& b, double radius)
+std::optional<QueryHit> castAt(const CastShape& shape, const Vec2& way, const Vec2& a, const Vec2& b, double radius,
+                               const Vec2& front)
 {
+    constexpr double kAside = 1e-9;  // of the normal: what comes along the segment may meet its end
     const double all = shape.radius + radius;
+    const auto fromFront = [&](const Vec2& normal) { return front.isZero() || normal.dot(front) > -kAside; };
     std::optional<QueryHit> best;
     // Corners of the shape come to the segment ...
     for (const Vec2& corner : shape.points) {
         auto hit = meetSegment(corner, way, a, b, all);
-        if (!hit) continue;
+        if (!hit || !fromFront(hit->normal)) continue;
         hit->point -= shape.radius * hit->normal;
         take(best, hit);
     }
@@ -119,7 +129,7 @@ std::optional<QueryHit> castAt(const CastShape& shape, const Vec2& way, const Ve
             const auto back = meetSegment(end, -way, p, q, all);
             if (!back) continue;
             const Vec2 normal = -back->normal;
-            take(best, QueryHit{back->at, end + radius * normal, normal});
+            if (fromFront(normal)) take(best, QueryHit{back->at, end + radius * normal, normal});
             if (a == b) break;
         }
     }

@@ -35,11 +35,13 @@ struct CastShape {
 
     std::size_t sides() const { return points.size() < 2 ? 0 : closed ? points.size() : points.size() - 1; }
     bool contains(const Vec2& point) const;
+    Vec2 middle() const;
     Box bounds() const;
 };
 
 /// When the moving shape meets the segment rounded by `radius`. Exact: shapes that do not turn touch first where a
-/// corner of one meets a side of the other.
-std::optional<QueryHit> castAt(const CastShape&, const Vec2& way, const Vec2& a, const Vec2& b, double radius);
+/// corner of one meets a side of the other. `front`: out of a segment that is met from there only; null: from both.
+std::optional<QueryHit> castAt(const CastShape&, const Vec2& way, const Vec2& a, const Vec2& b, double radius,
+                               const Vec2& front = Vec2(0, 0));
 
 }  // namespace jet::physics

@@ -99,11 +99,12 @@ struct SoftRecord {
 
     /// (cos, sin) of the angle by which the shape at rest fits best; null where no angle fits better than others, as
     /// where the body is turned inside out.
-    Vec2 bestTurn() const
+    Vec2 bestTurn() const { return bestTurn(fit); }
+    Vec2 bestTurn(const Vec2& sums) const
     {
         constexpr double kLeastFit = 0.2;  // of that at rest
-        const double size = fit.norm();
-        return size > kLeastFit * restGyrationSquared * mass ? Vec2(fit / size) : Vec2(0, 0);
+        const double size = sums.norm();
+        return size > kLeastFit * restGyrationSquared * mass ? Vec2(sums / size) : Vec2(0, 0);
     }
 };
 
@@ -131,7 +132,10 @@ struct BodyRecord {
     bool isLean() const { return single && points.count == 0; }
     double thickness() const { return soft ? soft->matter.thickness : 0; }
     /// Is each of its particles sprung to its place in a rigid twin (soft/twins.hpp)?
-    bool hasTwin() const { return soft && !fixed && soft->matter.shapeStiffness > 0 && soft->restGyrationSquared > 0; }
+    bool hasTwin() const
+    {
+        return soft && !fixed && !kinematic && soft->matter.shapeStiffness > 0 && soft->restGyrationSquared > 0;
+    }
     /// Does its border meet itself, or one of its pieces another?
     bool meetsOwn() const { return soft && (soft->matter.selfCollision || soft->pieceCount > 1); }
 };
@@ -141,9 +145,9 @@ struct Filter {
     std::uint32_t mask = ~0U, group = 0;
     double sideX = 0, sideY = 0;  // unit, out of a one-sided platform; null: from all
 
-    static Filter of(const BodyCommon& common, bool rigid)
+    static Filter of(const BodyCommon& common)
     {
-        const double length = rigid ? common.oneSided.norm() : 0;
+        const double length = common.oneSided.norm();
         if (!(length > 0)) return {common.mask, common.group};
         return {common.mask, common.group, common.oneSided.x() / length, common.oneSided.y() / length};
     }
@@ -167,7 +171,7 @@ struct Scratch {
     struct Reach {
         double left, right, top, bottom;  // scene units
         Index body;
-        bool fixed, simple;
+        bool stands, simple;
     };
     std::vector<Reach> reaches;
     std::vector<Index> candidates;

@@ -32,10 +32,10 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     body.sensor = common.sensor;
     body.material = common.material;
     body.gravityScale = common.gravityScale;
-    body.drives = body.kinematic = rigid && common.kinematic && !common.fixed;
+    body.drives = body.kinematic = common.kinematic && !common.fixed;
     body.fixedRotation = common.fixedRotation;
     body.layer = common.layer;
-    state_.setFilter(static_cast<Index>(state_.bodies.size()), Filter::of(common, rigid));
+    state_.setFilter(static_cast<Index>(state_.bodies.size()), Filter::of(common));
     body.nodes.first = static_cast<Index>(state_.nodes.size());
     body.points.first = static_cast<Index>(state_.points.size());
     body.walls.first = static_cast<Index>(state_.walls.size());
@@ -136,6 +136,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     shapes_.add(state_, def, handle, nodeOf);
     queries_.addSoft(handle);
     structure_.add(def);
+    if (body.kinematic) holdSoft(body, false);  // its springs know it as it is when it is not
     return finishBody(def.common);
 }
 

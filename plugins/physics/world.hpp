@@ -14,6 +14,7 @@
 #include "soft/joints.hpp"
 #include "soft/tears.hpp"
 #include "soft/twins.hpp"
+#include "soft/wholes.hpp"
 #include "soft_springs.hpp"
 #include "state.hpp"
 #include "structure.hpp"
@@ -107,7 +108,8 @@ private:
     BodyHandle finishBody(const BodyCommon&);
     void setRigidMass(BodyHandle, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines);
     void applyMotion(BodyHandle);
-    void enableSoft(BodyRecord&);
+    static bool isHeld(const BodyRecord&);
+    void holdSoft(BodyRecord&, bool before);
     BodyRecord& softBody(BodyHandle);
     const BodyRecord& softBody(BodyHandle) const;
     void cutTorn();
@@ -155,10 +157,10 @@ private:
     template <class Archive>
     void archivePins(Archive& with)
     {
-        auto any = static_cast<std::uint8_t>(!pinsWhileOff_.empty());
+        auto any = static_cast<std::uint8_t>(!pinsWhileHeld_.empty());
         with(any);
-        pinsWhileOff_.resize(any != 0 ? state_.nodes.size() : 0, 0);
-        if (any != 0) with(pinsWhileOff_);
+        pinsWhileHeld_.resize(any != 0 ? state_.nodes.size() : 0, 0);
+        if (any != 0) with(pinsWhileHeld_);
     }
     template <class Self, class Archive>
     static void archive(Self& self, Archive& with);
@@ -169,9 +171,10 @@ private:
     SoftSprings springs_;
     ShapeMemory shapes_;
     soft::Twins twins_;
+    soft::Wholes wholes_;
     Actuators actuators_;
     ForceFields fields_;
-    std::vector<std::uint8_t> pinsWhileOff_;  // [nodes] pinned particles of bodies that are switched off
+    std::vector<std::uint8_t> pinsWhileHeld_;  // [nodes] pinned particles of bodies that are switched off, or kinematic
     ContactFinder finder_;
     ContactSet contacts_;
     soft::Contacts softContacts_;

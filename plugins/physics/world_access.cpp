@@ -81,8 +81,7 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
     checks().number(named("body", handle), "velocity", velocity);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
-    const Vec2 now =
-        body.rigid ? state_.nodes.velocity[body.nodes.first] : soft::freeSums(state_.nodes, body.nodes).velocity;
+    const Vec2 now = body.rigid ? state_.nodes.velocity[body.nodes.first] : soft::motionOf(state_, body).velocity;
     const Vec2 change = velocity - now;
     if (change != Vec2(0, 0)) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
@@ -96,7 +95,7 @@ void World::setOmega(BodyHandle handle, double omega)
     checks().number(named("body", handle), "turning rate", omega);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
-    const soft::MassSums sums = body.rigid ? soft::MassSums() : soft::freeSums(state_.nodes, body.nodes);
+    const soft::MassSums sums = body.rigid ? soft::MassSums() : soft::motionOf(state_, body);
     const double change = omega - (body.rigid ? state_.nodes.omega[body.nodes.first] : sums.omega());
     if (change != 0) rouse(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {

@@ -94,23 +94,26 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
                             " cannot become fixed or free while the world runs; " +
                             (body.rigid ? "make it kinematic" : "pin its particles") + " instead."));
     if (body.material == common.material && body.gravityScale == common.gravityScale && body.sensor == common.sensor &&
-        body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter::of(common, body.rigid) &&
-        body.drives == (body.rigid && common.kinematic && !common.fixed) &&
-        body.fixedRotation == common.fixedRotation && rigid_.isSet(handle, common))
+        body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter::of(common) &&
+        body.drives == (common.kinematic && !common.fixed) && body.fixedRotation == common.fixedRotation &&
+        rigid_.isSet(handle, common))
         return;
     reportIfAsked();  // of what it was
     body.material = common.material, body.gravityScale = common.gravityScale;
     body.sensor = common.sensor, body.layer = common.layer;
-    state_.setFilter(handle, Filter::of(common, body.rigid));
+    state_.setFilter(handle, Filter::of(common));
+    const bool held = isHeld(body);
+    body.drives = common.kinematic && !common.fixed, body.fixedRotation = common.fixedRotation;
     if (body.rigid) {
-        body.drives = common.kinematic && !common.fixed, body.fixedRotation = common.fixedRotation;
         rigid_.stir(state_, handle);
         rigid_.wake(state_, handle);
         applyMotion(handle);
         if (body.fixedRotation && !body.drives) state_.nodes.omega[body.nodes.first] = 0;
         rigid_.set(state_, handle, common);
-        reread(handle);
+    } else {
+        holdSoft(body, held);
     }
+    reread(handle);
     rate_ = -1;
     queries_.outdate();
 }
@@ -123,6 +126,7 @@ void World::setEnabled(BodyHandle handle, bool enabled)
     reportIfAsked();  // of what it was
     rigid_.stir(state_, handle);
     rigid_.wake(state_, handle);
+    const bool held = isHeld(body);
     body.enabled = enabled;
     Nodes& nodes = state_.nodes;
     if (!enabled)
@@ -131,25 +135,33 @@ void World::setEnabled(BodyHandle handle, bool enabled)
         applyMotion(handle);
         rigid_.enable(state_, handle, enabled);
     } else {
-        enableSoft(body);
+        holdSoft(body, held);
     }
     reread(handle);
     rate_ = -1;
     queries_.outdate();
 }
 
-/// Switched off it is all pins; they are told from those it has.
-void World::enableSoft(BodyRecord& body)
+/// Nothing pushes its particles: it is switched off, or kinematic.
+bool World::isHeld(const BodyRecord& body) { return !body.enabled || body.drives; }
+
+/// What is held is all pins; they are told from those it has. `before`: was it held?
+void World::holdSoft(BodyRecord& body, bool before)
 {
     Nodes& nodes = state_.nodes;
-    pinsWhileOff_.resize(nodes.size(), 0);
+    const bool held = isHeld(body);
+    body.kinematic = body.drives && body.enabled;
+    if (body.kinematic) soft::stiffen(state_, body);
+    if (held == before || body.fixed) return;
+    pinsWhileHeld_.resize(nodes.size(), 0);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
-        if (body.enabled) {
-            nodes.invMass[n] = body.fixed || pinsWhileOff_[n] != 0 ? 0 : 1 / nodes.mass[n];
-        } else {
-            pinsWhileOff_[n] = nodes.invMass[n] == 0;
+        if (held) {
+            pinsWhileHeld_[n] = nodes.invMass[n] == 0;
             nodes.invMass[n] = 0;
+            continue;
         }
+        nodes.invMass[n] = pinsWhileHeld_[n] != 0 ? 0 : 1 / nodes.mass[n];
+        if (pinsWhileHeld_[n] != 0) nodes.velocity[n] = Vec2(0, 0);
     }
 }
 

@@ -37,7 +37,7 @@ void World::moveKinematic(double h)
 {
     Nodes& nodes = state_.nodes;
     for (const BodyRecord& body : state_.bodies) {
-        if (!body.kinematic) continue;
+        if (!body.kinematic || body.soft) continue;
         const Index node = body.nodes.first;
         nodes.position[node] += h * nodes.velocity[node];
         nodes.angle[node] += h * nodes.omega[node];

@@ -97,8 +97,8 @@ void World::setPinned(BodyHandle handle, std::uint32_t particle, bool pinned)
     if (body.fixed) return;
     Nodes& nodes = state_.nodes;
     const Index node = state_.points.node[body.points.first + particle];
-    if (!body.enabled) {
-        pinsWhileOff_[node] = pinned;
+    if (isHeld(body)) {
+        pinsWhileHeld_[node] = pinned;
         return;
     }
     nodes.invMass[node] = pinned ? 0 : 1 / nodes.mass[node];

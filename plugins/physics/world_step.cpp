@@ -84,6 +84,7 @@ void World::stepPart(double dt)
     if (onlySimple()) return stepSimple(dt);
     const Sharing sharing(state_, rigid_.pool(), settings_.threads);
     refresh();
+    wholes_.gather(state_);
     prepareStiffness();
     const bool plain = settings_.method == Method::SemiImplicitEuler;
     const int least = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size());
@@ -209,6 +210,7 @@ void World::substep(double h, int index, int count)
         if (plain_) refuseExplosion();
     }
     const Stopwatch watch(stats_.solverMs);
+    wholes_.keep(state_);
     rigid_.push(state_);
     if (accounts) accounts_.begin(state_);
     softJoints_.push(state_, h);
@@ -217,7 +219,10 @@ void World::substep(double h, int index, int count)
     solver.prepare();
     solver.solve();
     softContacts_.push(state_);
+    wholes_.keep(state_);
+    wholes_.begin(state_);
     integratePositions(state_, springs_, h);
+    wholes_.end(state_, h);
     moveKinematic(h);
     rigid_.relax(state_);
     if (accounts) accounts_.begin(state_);
@@ -226,6 +231,7 @@ void World::substep(double h, int index, int count)
     softContacts_.relax(state_);
     solver.relax();
     solver.finish();
+    wholes_.keep(state_);
 }
 
 void World::report()

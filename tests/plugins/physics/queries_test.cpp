@@ -346,6 +346,115 @@ TEST(Queries, ARayFromWithinShapesSideBySideLeavesThemAllUnseen)
     EXPECT_NEAR(world->rayCast({50, 0}, {0, 0})->point.x(), 32, 1e-6) << "from between them";
 }
 
+TEST(Queries, FromWithinShapesTheBorderTheyHaveTogetherIsNearest)
+{
+    auto world = makeWorld({0, 0});
+    world->addRigidBody(boxes({{{0, 0}, {10, 10}}, {{10, 0}, {10, 10}}, {{20, 0}, {10, 10}}}));
+    for (const double x : {5.0, 6.0, 10.0, 14.9}) {
+        const auto near = world->nearest({x, 1}, 20);
+        ASSERT_TRUE(near) << x;
+        EXPECT_NEAR((near->point - Vec2(x, 5)).norm(), 0, 1e-9) << "not the seam beside " << x;
+        EXPECT_NEAR((near->normal - Vec2(0, 1)).norm(), 0, 1e-9);
+        EXPECT_NEAR(near->fraction, 0.2, 1e-9);
+        EXPECT_FALSE(world->nearest({x, 1}, 3.9)) << "no border is so near";
+    }
+    EXPECT_NEAR(world->nearest({-4, 0}, 20)->point.x(), -5, 1e-9);
+    EXPECT_NEAR((world->nearest({5, 8}, 20)->point - Vec2(5, 5)).norm(), 0, 1e-9) << "from without as ever";
+
+    // Two discs that lie over each other: from their middle, nearest is where their rims cross.
+    RigidBodyDef discs;
+    discs.shapes = {{ShapeDef::Kind::Circle, {{-4, 100}}, 5}, {ShapeDef::Kind::Circle, {{4, 100}}, 5}};
+    world->addRigidBody(discs);
+    EXPECT_NEAR((world->nearest({0, 101}, 20)->point - Vec2(0, 103)).norm(), 0, 1e-9);
+}
+
+TEST(Queries, FromWithinAnyShapesTheNearestBorderIsThatOfAll)
+{
+    std::mt19937 random(7);
+    const auto number = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    int within = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        RigidBodyDef def;
+        def.common.fixed = trial % 2 == 0;
+        std::vector<Thing> parts;
+        for (int i = 0; i < 2 + trial % 5; ++i) {
+            const Vec2 at(number(-15, 15), number(-15, 15));
+            Thing part;
+            if (i % 3 == 0) {
+                part.points = boxRing(at, number(5, 30), number(5, 30), number(0, 3));
+                def.shapes.push_back({ShapeDef::Kind::Polygon, part.points, 0});
+            } else if (i % 3 == 1) {
+                part.points = {at}, part.radius = number(3, 14);
+                def.shapes.push_back({ShapeDef::Kind::Circle, part.points, part.radius});
+            } else {
+                part.points = {at, at + Vec2(number(-20, 20), number(-20, 20))}, part.radius = number(2, 8);
+                def.shapes.push_back({ShapeDef::Kind::Capsule, part.points, part.radius});
+            }
+            parts.push_back(part);
+        }
+        const auto depth = [&](const Vec2& p) {
+            double least = 1e300;
+            for (const Thing& part : parts) least = std::min(least, part.distance(p));
+            return least;
+        };
+        auto world = makeWorld({0, 0});
+        world->addRigidBody(def);
+        for (int k = 0; k < 20; ++k) {
+            const Vec2 p(number(-20, 20), number(-20, 20));
+            if (depth(p) > -0.1) continue;
+            ++within;
+            // The first point outside, in many directions; there may be a nearer one between two of them.
+            double least = 1e300;
+            for (int d = 0; d < 400; ++d) {
+                const Vec2 way(std::cos(d * kPi / 200), std::sin(d * kPi / 200));
+                double t = 0;
+                while (t < least && depth(p + t * way) < -1e-7) t -= 0.999 * depth(p + t * way);
+                least = std::min(least, t);
+            }
+            const auto near = world->nearest(p, 200);
+            ASSERT_TRUE(near);
+            EXPECT_LE((near->point - p).norm(), least + 1e-5) << trial;
+            EXPECT_NEAR(near->fraction * 200, (near->point - p).norm(), 1e-9);
+            EXPECT_NEAR(depth(near->point), 0, 1e-6) << trial;
+        }
+    }
+    EXPECT_GT(within, 500);
+}
+
+TEST(Queries, AChainIsMetFromItsFrontOnlyByRaysAndByShapes)
+{
+    auto world = makeWorld({0, 0});
+    RigidBodyDef ground;
+    ground.shapes = {{ShapeDef::Kind::Chain, {{-50, 0}, {0, 0}, {50, 0}}, 0}};  // solid below: y is down
+    ground.common.fixed = true;
+    world->addRigidBody(ground);
+    for (const double x : {-20.0, 0.0, 30.0}) {
+        const std::vector<ShapeDef> shapes = {{ShapeDef::Kind::Circle, {{x, 0}}, 3},
+                                              {ShapeDef::Kind::Capsule, {{x - 4, 0}, {x + 4, 1}}, 2},
+                                              {ShapeDef::Kind::Polygon, boxRing({x, 0}, 6, 6, 0.3), 0}};
+        EXPECT_TRUE(world->rayCast({x, -20}, {x, 20}));
+        EXPECT_FALSE(world->rayCast({x, 20}, {x, -20}));
+        for (ShapeDef shape : shapes) {
+            const auto moved = [&](double y) {
+                ShapeDef there = shape;
+                for (Vec2& at : there.points) at.y() += y;
+                return there;
+            };
+            const auto hit = world->shapeCast(moved(-20), {0, 40});
+            ASSERT_TRUE(hit) << x;
+            EXPECT_NEAR(hit->normal.y(), -1, 1e-9);
+            EXPECT_NEAR(hit->point.y(), 0, 1e-9);
+            EXPECT_FALSE(world->shapeCast(moved(20), {0, -40})) << "from behind, at " << x;
+            EXPECT_FALSE(world->shapeCast(moved(1), {0, -40})) << "its middle is behind, at " << x;
+            EXPECT_NEAR(world->shapeCast(moved(-1), {0, 40})->fraction, 0, 0) << "it lies on it, at " << x;
+            EXPECT_FALSE(world->shapeCast(moved(-20), {0, -40})) << "away, at " << x;
+        }
+    }
+    EXPECT_EQ(world->overlapping(Box({-1, -1}, {1, 1})), std::vector<BodyHandle>{0}) << "a box has no front";
+}
+
 TEST(Queries, ShapesKeepTheirPlaceWhenASoftBodyJoinsTheWorld)
 {
     auto world = makeWorld({0, 0});
