@@ -64,6 +64,14 @@ struct Tears::Mesh {
         }
         return !any;
     }
+    /// Of the region at rest, as the ring goes round it.
+    double area(std::span<const Index> ring) const
+    {
+        double twice = 0;
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            twice += cross(rest[ring[i]] - rest[ring[0]], rest[ring[(i + 1) % ring.size()]] - rest[ring[0]]);
+        return 0.5 * twice;
+    }
     /// The particle behind the wall, on the side `inward` times the clockwise normal; kNone: there is none.
     Index behind(Index p, Index q, double inward) const
     {
@@ -116,9 +124,9 @@ bool openOne(const Mesh& mesh, Ring& ring, Ring& more, double inward)
 }
 
 template <class Mesh>
-std::vector<Ring> openAll(const Mesh& mesh, std::vector<Ring> waiting, double inward)
+std::vector<Ring> openAll(const Mesh& mesh, const Ring& border, double inward)
 {
-    std::vector<Ring> whole;
+    std::vector<Ring> whole, waiting{border};
     std::size_t budget = 4 * mesh.links.size() + 64;  // each opening takes away some flesh; guards against none
     while (!waiting.empty()) {
         Ring ring = std::move(waiting.back());
@@ -132,6 +140,17 @@ std::vector<Ring> openAll(const Mesh& mesh, std::vector<Ring> waiting, double in
         if (ring.size() >= 3) whole.push_back(std::move(ring));
     }
     return whole;
+}
+
+/// Of a border and what inside it is on: what is left of it.
+template <class Mesh>
+std::vector<Ring> leftOf(const Mesh& mesh, const Ring& border, double inward)
+{
+    std::vector<Ring> left = openAll(mesh, border, inward);
+    // Diagonals cross: where two cuts took the same flesh there is a ring around less than nothing.
+    const auto isHole = [&](const Ring& ring) { return !(inward * mesh.area(ring) > 0); };
+    if (!isHole(border)) std::erase_if(left, isHole);
+    return left;
 }
 
 }  // namespace
@@ -230,7 +249,10 @@ void Tears::look(State& state, const SoftSprings& springs)
             if (side != 0) both[side > 0].push_back(ring);
         }
         const auto before = both[0].size() + both[1].size();
-        std::vector<Ring> kept[2] = {openAll(mesh, both[0], 1), openAll(mesh, both[1], -1)};
+        std::vector<Ring> kept[2];
+        for (const int side : {0, 1})
+            for (const Ring& border : both[side])
+                for (Ring& ring : leftOf(mesh, border, side == 0 ? 1 : -1)) kept[side].push_back(std::move(ring));
         body.soft->open |= kept[0] != both[0] || kept[1] != both[1] || before != kept[0].size() + kept[1].size();
         cut.room = std::max(cut.room, body.walls.count);
         std::vector<Ring> all = kept[0];

@@ -1,6 +1,7 @@
 // Soft bodies that tear: where, into what, and what the pieces do.
 #include "lattices.hpp"
 
+#include <random>
 #include <set>
 
 namespace jet::physics::test {
@@ -233,6 +234,30 @@ TEST(Tears, WhatFellToDustHasNoBorderToMeetItselfBy)
     EXPECT_FALSE(meetsItself());
 }
 
+TEST(Tears, PiecesHaveTheirFleshOnTheSideTheWholeHadIt)
+{
+    std::mt19937 random(3);
+    const auto number = [&](double from, double to) {
+        return std::uniform_real_distribution<double>(from, to)(random);
+    };
+    int pieces = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        SoftBodyDef def = strip(0);
+        for (SpringDef& spring : def.springs) spring.tearRatio = 1.05;
+        auto world = makeWorld({0, 0});
+        world->addSoftBody(def);
+        for (int k = 0; k < 6; ++k)
+            world->addForce(
+                {{0, def.particles[random() % def.particles.size()]}, {number(-900, 900), number(-900, 900)}});
+        run(*world, 0.2);
+        for (const auto& ring : world->borders(0)) {
+            ++pieces;
+            EXPECT_GT(signedArea(def.particles, ring), 0) << "drawn with the flesh on the other hand; " << trial;
+        }
+    }
+    EXPECT_GT(pieces, 600);
+}
+
 TEST(Tears, GasEscapesFromABodyThatIsCutOpen)
 {
     SoftBodyDef def = strip(0);
@@ -249,6 +274,27 @@ TEST(Tears, GasEscapesFromABodyThatIsCutOpen)
     world->setSprings(0, 300, 0.5, 1.001);
     run(*world, 5);
     EXPECT_LT(area(), 3601);
+}
+
+TEST(Tears, GasStaysWhereOnlyAnInnerSpringTears)
+{
+    const auto pressureAfter = [](bool tears) {
+        SoftBodyDef def = strip(0);
+        // Two holes, of which no wall tears.
+        for (const int column : {2, 8})
+            def.borders.push_back({at(column, 1), at(column + 1, 1), at(column + 1, 2), at(column, 2)});
+        for (SpringDef& spring : def.springs)
+            if (spring.a == at(5, 1) && spring.b == at(6, 2)) spring.tearRatio = tears ? 0.9 : 0;
+        def.matter.pressure = 20;
+        auto world = makeWorld({0, 0});
+        world->addSoftBody(def);
+        run(*world, 1);
+        int alive = 0;
+        for (std::uint32_t i = 0; i < def.springs.size(); ++i) alive += world->springAlive(0, i);
+        EXPECT_EQ(alive, static_cast<int>(def.springs.size()) - tears);
+        return areaRatio(*world, 0, def);
+    };
+    EXPECT_NEAR(pressureAfter(true), pressureAfter(false), 0.01);
 }
 
 }  // namespace jet::physics::test
