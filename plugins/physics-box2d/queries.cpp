@@ -130,7 +130,7 @@ struct Front {
         out.Normalize();
     }
     bool isBefore(const b2Vec2& point) const { return b2Dot(out, point - first) >= 0; }
-    bool faces(const b2Vec2& normal) const { return b2Dot(out, normal) > -1e-3F; }
+    bool isLeftBy(const Vec2& way) const { return b2Dot(out, metres(way)) > 0; }
 
     b2Vec2 first{0, 0}, out{0, 0};
 };
@@ -164,7 +164,7 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
         const BodyHandle body = handleOf(*fixture.GetBody());
         for (int32 child = 0; child < fixture.GetShape()->GetChildCount(); ++child) {
             const Front front(fixture, child);
-            if (!front.isBefore(caster.middle())) continue;
+            if (!front.isBefore(caster.middle())) continue;  // it comes from behind
             const b2DistanceInput near = distanceTo(fixture, child, caster.proxy);
             const b2DistanceOutput start = distanceOf(near, true);
             if (!(start.distance > 0)) {  // it begins there
@@ -175,12 +175,13 @@ std::optional<CastHit> World::shapeCast(const ShapeDef& shape, const Vec2& way, 
                 take({body, units(start.pointA), out.stableNormalized(), 0});
                 continue;
             }
+            if (front.isLeftBy(way)) continue;
             b2ShapeCastInput input;
             input.proxyA = near.proxyA, input.proxyB = near.proxyB;
             input.transformA = near.transformA, input.transformB = near.transformB;
             input.translationB = metres(way);
             b2ShapeCastOutput hit;
-            if (!b2ShapeCast(&hit, &input) || hit.lambda > 1 || !front.faces(hit.normal)) continue;
+            if (!b2ShapeCast(&hit, &input) || hit.lambda > 1) continue;
             const Vec2 normal(static_cast<double>(hit.normal.x), static_cast<double>(hit.normal.y));
             take({body, units(hit.point), normal, static_cast<double>(hit.lambda)});
         }

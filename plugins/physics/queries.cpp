@@ -28,13 +28,10 @@ int outwardOf(const ShapeDef& shape)
     return area > 0 ? -1 : area < 0 ? 1 : 0;
 }
 
-/// Unit, out of the body.
-Vec2 outOf(const QueryEdge& edge) { return edge.outward * perpendicular(edge.b - edge.a).stableNormalized(); }
+/// Out of the body.
+Vec2 outOf(const QueryEdge& edge) { return edge.outward * perpendicular(edge.b - edge.a); }
 
-bool isBefore(const QueryEdge& edge, const Vec2& at)
-{
-    return edge.outward * perpendicular(edge.b - edge.a).dot(at - edge.a) >= 0;
-}
+bool isBefore(const QueryEdge& edge, const Vec2& at) { return outOf(edge).dot(at - edge.a) >= 0; }
 
 }  // namespace
 
@@ -316,7 +313,7 @@ bool Queries::overlaps(const State& state, const Item& item, const CastShape& sh
     eachEdge(state, item, shape.bounds(), [&](const QueryEdge& edge) {
         meets |= (!item.open || isBefore(edge, middle)) && within(edge.a, edge.b, 0);
     });
-    return meets || inside(state, item, middle);
+    return meets || inside(state, item, shape.within());
 }
 
 std::optional<QueryHit> Queries::castShape(const State& state, const Item& item, const CastShape& moved,
@@ -341,10 +338,9 @@ std::optional<QueryHit> Queries::castShape(const State& state, const Item& item,
         region.extend(Vec2(region.min + along)), region.extend(Vec2(region.max + along));
         const Vec2 middle = shape.middle();
         eachEdge(state, item, region, [&](const QueryEdge& edge) {
-            // A chain is solid from its front, and what starts with its middle behind a side of it comes from behind.
-            if (item.open && !isBefore(edge, middle)) return;
-            const Vec2 front = item.open ? outOf(edge) : Vec2(0, 0);
-            const auto hit = castAt(shape, along, edge.a, edge.b, 0, front);
+            // A chain is solid from its front: what starts behind a side of it, or leaves it, passes.
+            if (item.open && (!isBefore(edge, middle) || outOf(edge).dot(along) > 0)) return;
+            const auto hit = castAt(shape, along, edge.a, edge.b, 0);
             if (hit && (!best || hit->at < best->at)) best = hit;
         });
     }

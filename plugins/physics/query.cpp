@@ -108,17 +108,14 @@ Box CastShape::bounds() const
     return box.inflated(radius);
 }
 
-std::optional<QueryHit> castAt(const CastShape& shape, const Vec2& way, const Vec2& a, const Vec2& b, double radius,
-                               const Vec2& front)
+std::optional<QueryHit> castAt(const CastShape& shape, const Vec2& way, const Vec2& a, const Vec2& b, double radius)
 {
-    constexpr double kAside = 1e-9;  // of the normal: what comes along the segment may meet its end
     const double all = shape.radius + radius;
-    const auto fromFront = [&](const Vec2& normal) { return front.isZero() || normal.dot(front) > -kAside; };
     std::optional<QueryHit> best;
     // Corners of the shape come to the segment ...
     for (const Vec2& corner : shape.points) {
         auto hit = meetSegment(corner, way, a, b, all);
-        if (!hit || !fromFront(hit->normal)) continue;
+        if (!hit) continue;
         hit->point -= shape.radius * hit->normal;
         take(best, hit);
     }
@@ -129,7 +126,7 @@ std::optional<QueryHit> castAt(const CastShape& shape, const Vec2& way, const Ve
             const auto back = meetSegment(end, -way, p, q, all);
             if (!back) continue;
             const Vec2 normal = -back->normal;
-            if (fromFront(normal)) take(best, QueryHit{back->at, end + radius * normal, normal});
+            take(best, QueryHit{back->at, end + radius * normal, normal});
             if (a == b) break;
         }
     }

@@ -35,13 +35,15 @@ struct CastShape {
 
     std::size_t sides() const { return points.size() < 2 ? 0 : closed ? points.size() : points.size() - 1; }
     bool contains(const Vec2& point) const;
+    /// The mean of its points, which of a line need not be on it.
     Vec2 middle() const;
+    /// A point that is not on its border, unless it is a line.
+    Vec2 within() const { return closed || points.size() < 3 ? middle() : Vec2(0.5 * (points[0] + points[1])); }
     Box bounds() const;
 };
 
 /// When the moving shape meets the segment rounded by `radius`. Exact: shapes that do not turn touch first where a
-/// corner of one meets a side of the other. `front`: out of a segment that is met from there only; null: from both.
-std::optional<QueryHit> castAt(const CastShape&, const Vec2& way, const Vec2& a, const Vec2& b, double radius,
-                               const Vec2& front = Vec2(0, 0));
+/// corner of one meets a side of the other.
+std::optional<QueryHit> castAt(const CastShape&, const Vec2& way, const Vec2& a, const Vec2& b, double radius);
 
 }  // namespace jet::physics

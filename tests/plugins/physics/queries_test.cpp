@@ -455,6 +455,19 @@ TEST(Queries, AChainIsMetFromItsFrontOnlyByRaysAndByShapes)
     EXPECT_EQ(world->overlapping(Box({-1, -1}, {1, 1})), std::vector<BodyHandle>{0}) << "a box has no front";
 }
 
+TEST(Queries, ALineRoundABodyDoesNotLieOnIt)
+{
+    auto world = makeWorld({0, 0});
+    world->addRigidBody(box({0, 0}, 4, 4));
+    const ShapeDef hook{
+        ShapeDef::Kind::Chain, {{-20, -10}, {0, 20}, {20, -10}}, 0};  // the mean of its points is (0, 0)
+    EXPECT_FALSE(world->shapeCast(hook, {0, 0}));
+    const auto hit = world->shapeCast(hook, {0, -40});
+    ASSERT_TRUE(hit);
+    EXPECT_GT(hit->fraction, 0.3);
+    EXPECT_NEAR(world->shapeCast({ShapeDef::Kind::Chain, {{-1, 0}, {1, 0}, {0, 1}}, 0}, {0, 40})->fraction, 0, 0);
+}
+
 TEST(Queries, ShapesKeepTheirPlaceWhenASoftBodyJoinsTheWorld)
 {
     auto world = makeWorld({0, 0});
