@@ -28,9 +28,8 @@ public:
 
     float ReportFixture(b2Fixture* fixture, const b2Vec2& point, const b2Vec2& normal, float fraction) override
     {
-        if (!seen(*fixture, bodies_, filter_)) return -1;
+        if (!seen(*fixture, bodies_, filter_) || fixture->GetType() == b2Shape::e_chain) return -1;
         const BodyHandle body = handleOf(*fixture->GetBody());
-        // Chains may meet the ray at a joint of two edges: the same fraction, and the order of the tree decides.
         hit = CastHit{body, units(point), Vec2(static_cast<double>(normal.x), static_cast<double>(normal.y)),
                       static_cast<double>(fraction)};
         return fraction;
@@ -145,6 +144,22 @@ std::optional<CastHit> World::rayCast(const Vec2& from, const Vec2& to, const Qu
     if (!((b - a).LengthSquared() > 0)) return std::nullopt;
     NearestRay ray(stage_->bodies(), filter);
     stage_->world().RayCast(&ray, a, b);
+    // Box2D's chains stop rays from both sides.
+    Box swept;
+    swept.extend(from), swept.extend(to);
+    eachFixture(*stage_, filter, swept, [&](const b2Fixture& fixture) {
+        if (fixture.GetType() != b2Shape::e_chain) return;
+        for (int32 child = 0; child < fixture.GetShape()->GetChildCount(); ++child) {
+            const Front front(fixture, child);
+            b2RayCastOutput out;
+            const float most = ray.hit ? static_cast<float>(ray.hit->fraction) : 1;
+            if (!front.isBefore(a) || front.isLeftBy(to - from) || !fixture.RayCast(&out, {a, b, most}, child))
+                continue;
+            const Vec2 normal(static_cast<double>(out.normal.x), static_cast<double>(out.normal.y));
+            ray.hit = CastHit{handleOf(*fixture.GetBody()), units(a + out.fraction * (b - a)), normal,
+                              static_cast<double>(out.fraction)};
+        }
+    });
     return ray.hit;
 }
 

@@ -68,7 +68,7 @@ std::vector<Row> runAll(const Lab& lab, const Options& options)
 {
     std::vector<Row> rows;
     for (const auto& checks :
-         {motionChecks(), contactChecks(), jointChecks(), softChecks(), queryChecks(), stateChecks()})
+         {motionChecks(), contactChecks(), changeChecks(), jointChecks(), softChecks(), queryChecks(), stateChecks()})
         for (const Check& check : checks) {
             if ((check.group + ": " + check.name).find(options.only) == std::string::npos) continue;
             Row row{check.group, check.name, {}};

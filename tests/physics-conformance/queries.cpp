@@ -213,6 +213,67 @@ Outcome filter(const Lab& lab)
                  "layers, the excepted body or sensors are not heeded");
 }
 
+Outcome agreement(const Lab& lab)
+{
+    const Yard yard(lab);
+    const PhysicsWorld& world = *yard.world;
+    int wrong = 0, hits = 0;
+    std::string first;
+    const auto expect = [&](bool is, const char* otherwise) {
+        wrong += !is;
+        if (!is && first.empty()) first = otherwise;
+    };
+    const Vec2 near(0.3, 0.3);  // Box2D's polygons have a skin of 0.1 units, which rays do not know
+    for (int i = 0; i < 400; ++i) {
+        const Vec2 from(yard.number(-60, 480), yard.number(-60, 480)), to(yard.number(-60, 480), yard.number(-60, 480));
+        if (yard.least(from) < 1.5) continue;
+        const Vec2 way = to - from;
+        const auto ray = world.rayCast(from, to);
+        const auto cast = world.shapeCast({ShapeDef::Kind::Circle, {from}, 1}, way);
+        if (!ray) continue;
+        ++hits;
+        expect(cast.has_value(), "a disc goes where a ray does not");
+        if (cast)
+            expect(cast->fraction * way.norm() <= ray->fraction * way.norm() + 0.2, "a disc goes farther than a ray");
+        const std::vector<BodyHandle> there = world.overlapping(Box(ray->point - near, ray->point + near));
+        expect(std::binary_search(there.begin(), there.end(), ray->body), "a box at a hit does not overlap the body");
+        const auto nearest = world.nearest(ray->point, 1);
+        expect(nearest && nearest->fraction < 0.3, "no border is near a hit");
+        expect(world.contains(ray->body, ray->point - 0.5 * ray->normal) ||
+                   yard.things[ray->body].distance(ray->point - 0.5 * ray->normal) > -0.2,
+               "the body is not behind its surface");
+        expect(!world.contains(ray->body, ray->point + 0.5 * ray->normal), "the body is before its surface");
+        if (ray->fraction * way.norm() > 1) {
+            const Vec2 before = ray->point - way.normalized();
+            const auto again = world.rayCast(before, to);
+            expect(again && again->body == ray->body && (again->point - ray->point).norm() < 0.2,
+                   "a ray from nearer by hits something else");
+        }
+    }
+    if (hits < 100) return holds(false, "only " + std::to_string(hits) + " hits");
+    return measured(wrong, "contradictions", 0, first.empty() ? std::to_string(hits) + " hits" : first);
+}
+
+Outcome frontOfChains(const Lab& lab)
+{
+    const auto world = lab.world({0, 0});
+    RigidBodyDef line;
+    line.shapes = {{ShapeDef::Kind::Chain, {{-60, 5}, {-20, 0}, {20, 0}, {60, 5}}, 0}};  // solid below
+    line.common.fixed = true;
+    world->addRigidBody(line);
+    world->step(kStep);
+    int wrong = 0;
+    for (const double x : {-40.0, -15.0, 3.0, 12.0, 45.0}) {
+        const auto disc = [&](double y) { return ShapeDef{ShapeDef::Kind::Circle, {{x, y}}, 4}; };
+        const auto square = [&](double y) { return ShapeDef{ShapeDef::Kind::Polygon, boxRing({x, y}, 8, 8, 0.2), 0}; };
+        wrong += !world->rayCast({x, -30}, {x, 30}) + !world->shapeCast(disc(-30), {0, 60}).has_value() +
+                 !world->shapeCast(square(-30), {0, 60}).has_value();
+        wrong += world->rayCast({x, 30}, {x, -30}).has_value() + world->shapeCast(disc(30), {0, -60}).has_value() +
+                 world->shapeCast(square(30), {0, -60}).has_value();
+    }
+    return measured(wrong, "of 30 wrong", 0, "rays, discs and squares from before and behind");
+}
+
 Outcome contains(const Lab& lab)
 {
     const auto world = lab.world({0, 0});
@@ -228,9 +289,14 @@ Outcome contains(const Lab& lab)
 
 std::vector<Check> queryChecks()
 {
-    return {{"queries", "ray casts", rays},          {"queries", "shape casts", casts},
-            {"queries", "overlapping a box", boxes}, {"queries", "nearest point", nearest},
-            {"queries", "filters", filter},          {"queries", "containing a point", contains}};
+    return {{"queries", "ray casts", rays},
+            {"queries", "shape casts", casts},
+            {"queries", "overlapping a box", boxes},
+            {"queries", "nearest point", nearest},
+            {"queries", "filters", filter},
+            {"queries", "containing a point", contains},
+            {"queries", "rays, casts, boxes agree", agreement},
+            {"queries", "chains have a front", frontOfChains}};
 }
 
 }  // namespace jet::conformance
