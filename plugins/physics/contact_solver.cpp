@@ -159,6 +159,14 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
     return true;
 }
 
+/// Nothing weighs on what sleeps, so a contact would push it away from what stands; there each substep is like the
+/// last.
+bool ContactSolver::rests(const ContactPoint& c) const
+{
+    const BodyRecord &a = state_.bodies[c.bodyA], &b = state_.bodies[c.bodyB];
+    return (a.asleep && (b.asleep || b.fixed)) || (b.asleep && a.fixed);
+}
+
 void ContactSolver::prepare()
 {
     contacts_.active.clear();
@@ -171,6 +179,10 @@ void ContactSolver::prepare()
         }
         ContactPoint& c = contacts_.points[i];
         if (!c.resolve) continue;
+        if (rests(c)) {
+            c.stepImpulse += c.normalImpulse;
+            continue;
+        }
         head.idle = refresh(c);
         if (!c.active) {
             c.normalImpulse = c.tangentImpulse = 0;

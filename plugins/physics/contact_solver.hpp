@@ -43,6 +43,7 @@ private:
     static Softness softness(double hertz, double dampingRatio, double h);
     std::uint8_t refresh(ContactPoint&);
     std::uint8_t idleFor(const ContactPoint&) const;
+    bool rests(const ContactPoint&) const;
     bool decideActive(ContactPoint&, double wallLength, double slide) const;
     void solveOne(ContactPoint&, Pass);
     template <class Relative, class Act>
