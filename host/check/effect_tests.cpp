@@ -85,8 +85,7 @@ private:
         });
         stage_.checkClosed(what);
         if (refused && stage_.scene.hash() != before)
-            context_.fail(
-                context_.where(std::string(what) + " was refused (" + refusal_ + "), but the scene has changed"));
+            context_.fail(context_.where(what + (" was refused (" + refusal_) + "), but the scene has changed"));
     }
 
     void add()
