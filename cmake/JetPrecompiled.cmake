@@ -67,7 +67,9 @@ function(jet_precompile target)
         string(APPEND kind ${optimization})
         set(flags $<$<CONFIG:Release>:${optimization}>)
     endif()
-    if(type STREQUAL EXECUTABLE)
+    set(pie OFF)  # programs with Qt, but without its widgets, are compiled as libraries are
+    if(type STREQUAL EXECUTABLE AND (NOT Qt6::Core IN_LIST linked OR Qt6::Widgets IN_LIST linked))
+        set(pie ON)
         string(APPEND kind -pie)
     endif()
 
@@ -78,12 +80,16 @@ function(jet_precompile target)
         target_link_libraries(${owner} PRIVATE ${libraries})
         target_compile_definitions(${owner} PRIVATE $<TARGET_PROPERTY:jet-sdk,INTERFACE_COMPILE_DEFINITIONS>)
         target_compile_options(${owner} PRIVATE ${flags})
-        if(type STREQUAL EXECUTABLE)
+        if(pie)
             set_target_properties(${owner} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
             target_compile_options(${owner} PRIVATE -fPIE)
         endif()
     endif()
     target_precompile_headers(${target} REUSE_FROM ${owner})
+    # g++ 12 finds faults in std::string which it keeps to itself unless the header was compiled before.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+    endif()
 endfunction()
 
 # All targets of the folder and of those below it.
