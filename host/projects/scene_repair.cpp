@@ -28,7 +28,7 @@ std::uint64_t idOf(const pugi::xml_attribute& attribute)
     return problem == std::errc() && end == text.data() + text.size() && id <= kLargestId ? id : 0;
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text.substr(0, 60)) + "'"; }
+std::string inQuotes(std::string_view text) { return "'" + std::string(text.substr(0, 60)) + "'"; }
 
 class Mender {
 public:
@@ -120,7 +120,7 @@ private:
         std::uint64_t free = largest_ < kLargestId ? ++largest_ : 1;
         while (all_.contains(free) || taken_.contains(free)) ++free;
         const std::string problem = !attribute ? "an item has no id"
-                                    : id == 0  ? "the id " + quoted(attribute.value()) + " is none"
+                                    : id == 0  ? "the id " + inQuotes(attribute.value()) + " is none"
                                                : "there is another item with the id " + std::to_string(id);
         tell(item, problem, "it gets the id " + std::to_string(free));
         if (!attribute) attribute = item.append_attribute("id");
@@ -132,7 +132,7 @@ private:
     {
         const pugi::xml_attribute attribute = node.attribute(name);
         if (!attribute || isOneOf(attribute.value(), {"true", "false"})) return;
-        tell(node, std::string(name) + "=" + quoted(attribute.value()) + " is neither true nor false",
+        tell(node, std::string(name) + "=" + inQuotes(attribute.value()) + " is neither true nor false",
              "it is left out");
         node.remove_attribute(attribute);
     }
@@ -142,7 +142,7 @@ private:
         for (pugi::xml_attribute at = node.first_attribute(); at;) {
             const pugi::xml_attribute next = at.next_attribute();
             if (!isOneOf(at.name(), known)) {
-                tell(node, "<" + std::string(node.name()) + "> has no attribute " + quoted(at.name()),
+                tell(node, "<" + std::string(node.name()) + "> has no attribute " + inQuotes(at.name()),
                      "it is left out");
                 node.remove_attribute(at);
             }
@@ -180,7 +180,7 @@ private:
         const std::string text = path.text().get();
         const auto parsed = Path::parse(text);
         if (parsed) return;
-        const std::string owner = quoted(path.parent().attribute("name").value());
+        const std::string owner = inQuotes(path.parent().attribute("name").value());
         std::string mended;
         for (std::size_t at = 0; at < text.size();) {
             const std::size_t end = std::min(text.find_first_of(" ,\t\r\n", at), text.size());
@@ -219,7 +219,7 @@ private:
                 tell(at, "a property has no id", "it is left out");
                 node.remove_child(at);
             } else if (!ids.insert(id).second) {
-                tell(at, "the property " + quoted(id) + " stands here twice", "the first one stays");
+                tell(at, "the property " + inQuotes(id) + " stands here twice", "the first one stays");
                 node.remove_child(at);
             } else if (const PropertySpec* spec = table ? table->find(id) : nullptr) {
                 mendValue(node, at, *spec);
@@ -232,16 +232,16 @@ private:
     {
         const std::string text = node.text().get();
         const auto value = Value::parse(spec.kind, text);
-        const std::string property = "the property " + quoted(spec.id) + " ";
+        const std::string property = "the property " + inQuotes(spec.id) + " ";
         if (!value) {
-            tell(node, property + "is " + quoted(text) + ": " + value.error().message, "it gets its default");
+            tell(node, property + "is " + inQuotes(text) + ": " + value.error().message, "it gets its default");
             owner.remove_child(node);
         } else if (const auto fine = spec.check(*value); !fine) {
             const bool isNumber = spec.kind == ValueKind::Real || spec.kind == ValueKind::Integer;
             const auto limited =
                 isNumber ? Value::parse(spec.kind, nearest(spec, *value)) : Value::parse(spec.kind, "?");
             const bool canLimit = limited && spec.check(*limited);
-            tell(node, property + "is " + quoted(text) + ": " + fine.error().message,
+            tell(node, property + "is " + inQuotes(text) + ": " + fine.error().message,
                  canLimit ? "it becomes " + limited->text() : "it gets its default");
             if (canLimit) {
                 node.text().set(limited->text().c_str());
