@@ -91,14 +91,13 @@ struct BodyCommon {
     double gravityScale = 1;
     bool sensor = false;  ///< contacts are reported, not resolved
 
-    // Rigid bodies only, but for group, layer and mask.
     bool kinematic = false;      ///< moves with its velocity and omega, and nothing pushes it
     bool fixedRotation = false;  ///< never turns
     std::uint32_t group = 0;     ///< bodies of one group above 0 do not collide with each other
     std::uint32_t layer = 1;     ///< bits: the layers it is on
     std::uint32_t mask = ~0U;    ///< bits: the layers it collides with; both sides must agree
     Vec2 oneSided;               ///< not null: only what comes against this direction collides (platforms)
-    bool allowSleep = true;      ///< may it fall asleep?
+    bool allowSleep = true;      ///< rigid bodies: may it fall asleep?
 };
 
 /// A simple part of a rigid body, in scene coordinates at rest.
