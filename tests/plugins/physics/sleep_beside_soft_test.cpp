@@ -15,10 +15,10 @@ struct Wedge {
         SoftBodyDef floor = softBall({-30, 30}, 40, 2000, 5);
         floor.common.fixed = true;
         world->addSoftBody(floor);
-        RigidBodyDef wall = simple(box({35, 10}, 40, 80, turn));
+        RigidBodyDef wall = simple(box({35, 10}, 40, 80, 1, turn));
         wall.common.fixed = true;
         world->addRigidBody(wall);
-        held = world->addRigidBody(simple(box({5, -30}, 14, 14, 0.3)));
+        held = world->addRigidBody(simple(box({5, -30}, 14, 14, 1, 0.3)));
     }
     bool settles()
     {
