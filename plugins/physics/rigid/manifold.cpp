@@ -113,11 +113,11 @@ Manifold withPoint(const A& a, float radiusA, Vec2f b, float radiusB, const Rela
     Manifold m;
     m.gap = separation - radiusA - radiusB;
     if (separation > reach + radiusA + radiusB) return m;
-    const Vec2f v1 = a.corners[best], v2 = a.corners[(best + 1) % a.count], normal = a.normals[best];
+    const int next = best + 1 < a.count ? best + 1 : 0;
+    const Vec2f v1 = a.corners[best], v2 = a.corners[next], normal = a.normals[best];
     if (separation > 1e-7F) {
         if (dot(b - v1, v2 - v1) < 0) return betweenPoints(v1, b, radiusA, radiusB, at, reach, normal, best, 0);
-        if (dot(b - v2, v1 - v2) < 0)
-            return betweenPoints(v2, b, radiusA, radiusB, at, reach, normal, (best + 1) % a.count, 0);
+        if (dot(b - v2, v1 - v2) < 0) return betweenPoints(v2, b, radiusA, radiusB, at, reach, normal, next, 0);
     }
     m.normal = normal;
     m.count = 1;
