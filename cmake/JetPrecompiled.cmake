@@ -1,4 +1,4 @@
-# Headers that nearly all files include are compiled once for all targets with the same flags: a third of a cold build.
+# Headers that nearly all files include are compiled once for all targets with the same flags (docs/decisions/0070).
 #
 # Only headers of the system are among them (C++, Eigen, Qt, GoogleTest), which do not change: ours are read by each file
 # that includes them, so that touching one compiles no more than it must. A file still includes what it uses:
