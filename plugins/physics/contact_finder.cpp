@@ -375,7 +375,7 @@ bool ContactFinder::strayed(const State& state, double elapsed)
     const Nodes& nodes = state.nodes;
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
-        if (body.fixed || body.points.count == 0) continue;
+        if (body.fixed || body.flown || body.points.count == 0) continue;
         const Index n = body.nodes.first;
         const double off = clouds_->farthest(nodes.position[n].data(), position_[n].data(), velocity_[n].data(),
                                              elapsed, body.nodes.count);
@@ -392,6 +392,14 @@ bool ContactFinder::strayed(const State& state, double elapsed)
                         0.5 * turn * turn * motion.radius;
     }
     return false;
+}
+
+double ContactFinder::freedomOf(Index body) const
+{
+    if (lonely_) return std::numeric_limits<double>::infinity();
+    const auto has = [body](const BodyPair& pair) { return pair.a == body || pair.b == body; };
+    const auto none = [&](const std::vector<BodyPair>& pairs) { return std::none_of(pairs.begin(), pairs.end(), has); };
+    return none(pairs_) && none(softPairs_) ? budgets_[body] : 0;
 }
 
 }  // namespace jet::physics

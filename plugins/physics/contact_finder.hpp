@@ -22,6 +22,10 @@ public:
     /// Pairs that joints keep from colliding; ascending, the smaller handle first.
     void exclude(std::vector<std::pair<Index, Index>> pairs) { excluded_ = std::move(pairs); }
 
+    /// Units the particles of a body may stray from their predictions, in all of the time find() was asked for, while
+    /// it meets nothing, not even itself; 0: it may meet something. As of the last find().
+    double freedomOf(Index body) const;
+
     // Of the last find():
     const std::vector<Motion>& motions() const { return motions_; }
     /// Pairs with a body that is not simple, but for those of softPairs().

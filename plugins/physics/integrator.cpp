@@ -75,7 +75,7 @@ void integratePositions(State& state, const SoftSprings& springs, double h)
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         const Index first = body.nodes.first;
-        if (body.nodes.count == 0 || body.fixed || body.kinematic) continue;
+        if (body.nodes.count == 0 || body.fixed || body.kinematic || body.flown) continue;
         if (!body.rigid) {
             springs.advance(state, handle, h);
             continue;

@@ -142,13 +142,22 @@ bool ShapeMemory::forgets(const State& state, const Lattice& lattice)
 
 void ShapeMemory::look(State& state, double dt)
 {
-    for (Lattice& lattice : lattices_) {
-        lattice.relaxed = forgets(state, lattice);
-        if (lattice.relaxed) continue;
-        const soft::Cloud cloud = cloudOf(state, lattice);
-        const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);
-        lattice.relaxed = std::sqrt(stray.off) + std::sqrt(stray.speed) * dt < kRelaxed * lattice.tolerance;
-    }
+    for (Lattice& lattice : lattices_)
+        if (!state.bodies[lattice.body].flown) lattice.relaxed = relaxes(state, lattice, dt);
+}
+
+bool ShapeMemory::relaxes(State& state, Lattice& lattice, double dt)
+{
+    if (forgets(state, lattice)) return true;
+    const soft::Cloud cloud = cloudOf(state, lattice);
+    const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);
+    return std::sqrt(stray.off) + std::sqrt(stray.speed) * dt < kRelaxed * lattice.tolerance;
+}
+
+bool ShapeMemory::relaxes(State& state, Index body, double dt)
+{
+    return std::all_of(lattices_.begin(), lattices_.end(),
+                       [&](Lattice& lattice) { return lattice.body != body || relaxes(state, lattice, dt); });
 }
 
 void ShapeMemory::apply(State& state, const SoftSprings& springs, double h, std::span<const double> offs)
@@ -158,7 +167,7 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h, std:
         return (lattice.nodes.empty() && offs[lattice.body] <= lattice.tolerance) || forgets(state, lattice);
     };
     for (Lattice& lattice : lattices_) {
-        if (isRelaxed(lattice) || springs.anyTorn(lattice.body)) continue;
+        if (state.bodies[lattice.body].flown || isRelaxed(lattice) || springs.anyTorn(lattice.body)) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const Motion motion = match(cloud, lattice);
         const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));

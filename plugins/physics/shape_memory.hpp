@@ -29,6 +29,8 @@ public:
     /// Once a step, before its substeps, where nothing can hit the bodies: those that cannot come near their tolerance
     /// within dt are left out of it.
     void look(State&, double dt);
+    /// Is that so for all lattices of the body?
+    bool relaxes(State&, Index body, double dt);
     /// Changes velocities by the impulses over h. Bodies with a torn spring are left alone.
     /// `offs`: [bodies] units their particles are from where the shape at rest has them, at most. One that is hit must
     /// be seen as it is crushed: later, it would get what it costs to crush it as a present. Empty: as of look().
@@ -63,6 +65,7 @@ private:
 
     static bool anyPinned(const State&, const Lattice&);
     static bool forgets(const State&, const Lattice&);
+    bool relaxes(State&, Lattice&, double dt);
     soft::Cloud cloudOf(State&, const Lattice&);
     Motion match(const soft::Cloud&, Lattice&) const;
     static soft::CloudReturn netOf(const soft::CloudPulled&, const Lattice&, const Motion&);

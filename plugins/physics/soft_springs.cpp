@@ -135,6 +135,7 @@ void SoftSprings::arrange(const State& state)
     rooms_.resize(parts);
     for (Room& own : rooms_)
         own.planes.resize(room), own.torn.resize(most), own.held.resize(2 * head), own.spilt.resize(2 * head);
+    makeFlightRoom();
 }
 
 /// From now on the kernels watch the lengths of the batch's springs.
@@ -254,7 +255,7 @@ void SoftSprings::accelerate(State& state, double h, const Vec2& gravity, double
     for (soft::Batch& batch : batches_) {
         if (batch.alike()) {
             accelerateAlike(state, batch, h, gravity, kept, force);
-        } else {
+        } else if (!state.bodies[batch.bodies.front()].flown) {
             accelerateAlone(state, batch, {h, gravity.x(), gravity.y(), kept}, force);
         }
     }
@@ -306,6 +307,14 @@ void SoftSprings::accelerateAlone(State& state, soft::Batch& batch, soft::Veloci
         swing.pinned ? Vec2(0, 0) : Vec2(-step.kept * step.h * leftOver(swing.x, swing.y, body.soft->mass));
 }
 
+soft::Stretch SoftSprings::partOf(const soft::Batch& batch, std::size_t k)
+{
+    soft::Stretch part = batch.parts[k];
+    part.held = rooms_[k].held.data();
+    part.spilt = k + 1 < batch.parts.size() ? rooms_[k].spilt.data() : nullptr;
+    return part;
+}
+
 /// Part by part, all at once; then what reaches from each into the next.
 soft::Swing SoftSprings::swing(const State& state, soft::Batch& batch, const soft::NodeArrays& nodes,
                                const soft::VelocityStep& step)
@@ -313,21 +322,15 @@ soft::Swing SoftSprings::swing(const State& state, soft::Batch& batch, const sof
     const soft::Frame frame = frameOf(state, batch.bodies.front());
     const std::size_t count = batch.parts.size();
     std::array<soft::Swing, 8> swings;
-    const auto partOf = [&](std::size_t k) {
-        soft::Stretch part = batch.parts[k];
-        part.held = rooms_[k].held.data();
-        part.spilt = k + 1 < count ? rooms_[k].spilt.data() : nullptr;
-        return part;
-    };
     state.run(count, [&](std::size_t k) {
-        swings[k] =
-            kernels_->swing(springsOf(batch, rooms_[k]), nodes, frame, step, planes(batch, rooms_[k]), partOf(k));
+        swings[k] = kernels_->swing(springsOf(batch, rooms_[k]), nodes, frame, step, planes(batch, rooms_[k]),
+                                    partOf(batch, k));
     });
     if (count > 1)
         state.run(count, [&](std::size_t k) {
             if (k == 0) return;
             swings[4 + k] =
-                kernels_->join(nodes, step, planes(batch, rooms_[k]), partOf(k), rooms_[k - 1].spilt.data());
+                kernels_->join(nodes, step, planes(batch, rooms_[k]), partOf(batch, k), rooms_[k - 1].spilt.data());
         });
     soft::Swing all;
     for (const soft::Swing& swing : swings) all.x += swing.x, all.y += swing.y, all.pinned |= swing.pinned;

@@ -59,6 +59,15 @@ public:
     void accelerate(State&, double h, const Vec2& gravity, double kept, bool pushed);
     /// Moves a body's nodes on over h, at the velocities they have.
     void advance(State&, Index body, double h) const;
+    /// Moves the body on over `count` substeps of h, as accelerate() and advance() would; nothing else may act on it
+    /// meanwhile (soft/flight.hpp). `most`: units its particles may go astray of uniform motion. False, and nothing has
+    /// changed, where that cannot be done at once.
+    bool fly(State&, Index body, double h, int count, const Vec2& gravity, double kept, double most);
+    /// May the body be of those fly() can move?
+    bool mayFly(Index body) const
+    {
+        return body < meshes_.size() && meshes_[body].wide && batches_[meshes_[body].batch].flies();
+    }
     bool anyOneByOne() const { return anyOneByOne_; }
     /// Is the body one of those that accelerate() moves?
     bool isWide(Index body) const { return meshes_[body].wide; }
@@ -147,7 +156,7 @@ private:
     void fillRests(const Mesh&);
     /// Of the part at work of a body.
     struct Room {
-        std::vector<float> planes, held, spilt;
+        std::vector<float> planes, held, spilt, ring;
         std::vector<std::uint32_t> torn;
     };
     void accelerateAlone(State&, soft::Batch&, soft::VelocityStep, double* force);
@@ -155,6 +164,8 @@ private:
     void accelerateAlike(State&, soft::Batch&, double h, const Vec2& gravity, double kept, double* force);
     soft::Frame frameOf(const State&, Index body) const;
     soft::SpringBlocks springsOf(const soft::Batch&, Room&) const;
+    soft::Stretch partOf(const soft::Batch&, std::size_t part);
+    void makeFlightRoom();
     static soft::Planes planes(const soft::Batch&, Room&);
     void pullOneByOne(State&, Mesh&);
     void tearIn(const State&, const soft::Batch&, std::span<std::uint32_t> blocks);
@@ -181,6 +192,7 @@ private:
     // Scratch of the body or batch at work; that of preparing is given back.
     std::vector<Vec2> drift_;  // [bodies] units / s, of the substep
     std::vector<Room> rooms_;  // the first serves what is not divided
+    std::vector<float> flight_;
     std::vector<double> stiffness_, damping_, load_, weight_, matrix_;
 };
 

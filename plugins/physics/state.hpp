@@ -118,6 +118,7 @@ struct BodyRecord {
     bool drives : 1 = false;     // kinematic while it is enabled
     bool fixedRotation : 1 = false;
     bool asleep : 1 = false;  // rigid: rests, and is left out until something wakes it
+    bool flown : 1 = false;   // soft: nothing else acts on it, and it has been moved for all of the step at hand
     Index material = 0;
     std::uint32_t layer = 1;
     Range nodes, points, walls;

@@ -136,6 +136,12 @@ private:
 
     void prepareStiffness();
     void substep(double h, int index, int count);
+    void flyFree(double h, int count);
+    bool isLeftAlone(Index body, double dt);
+    /// May there be forces on nodes?
+    bool anyForces() const { return pushed_ || plain_ || actuators_.any() || fields_.count() > 0; }
+    /// Is any of stepForces_ not null?
+    bool anyStepForce() const;
     soft::Accounts::Scene accounted(double h);
     /// Nothing but simple rigid bodies, and no spring between them: then the rigid stage does the whole step.
     bool onlySimple() const;

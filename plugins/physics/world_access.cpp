@@ -275,7 +275,7 @@ void World::restore(std::span<const std::byte> bytes)
         springs_.restored();
         fields_.restored();
         rate_ = -1;
-        pushed_ = true;
+        pushed_ = anyStepForce();
     };
     try {
         read(state);

@@ -130,6 +130,7 @@ void World::stepPart(double dt)
         }
         if (i == 0 && settings_.findCollisions) wakeBesideSoft();
         if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
+        if (i == 0) flyFree(h, count);
         if (!plain && i % soft::Accounts::kSubsteps == 0) {
             accounts_.close(accounted(h));
             accounts_.open(accounted(h));
@@ -141,6 +142,7 @@ void World::stepPart(double dt)
     }
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
+    for (BodyRecord& body : state_.bodies) body.flown = false;
     restIfDue(dt);
     springs_.flow(state_, dt);
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
@@ -186,7 +188,7 @@ void World::substep(double h, int index, int count)
         const Stopwatch watch(stats_.springsMs);
         // Before the forces: its damping must not take from what they give, or what bears a load would yield more.
         twins_.apply(state_, springs_, h);
-        const bool pushed = pushed_ || plain_ || actuators_.any() || fields_.count() > 0;
+        const bool pushed = anyForces();
         if (pushed || springs_.anyOneByOne()) state_.nodes.coverForces();
         for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);

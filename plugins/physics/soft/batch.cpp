@@ -152,6 +152,7 @@ std::size_t Batch::bytes() const
     return bodies.capacity() * sizeof(Index) + nodeAt.capacity() * sizeof(Index) +
            blocks.runs.capacity() * sizeof(Run) + parts.capacity() * sizeof(Stretch) +
            (blocks.ends.capacity() + blocks.seat.capacity()) * sizeof(std::uint32_t) +
+           blocks.pattern.differences.capacity() * sizeof(std::uint32_t) + blocks.pattern.present.capacity() +
            kind.capacity() * sizeof(std::uint32_t) +
            (rest.capacity() + kinds.capacity() + tear.capacity()) * sizeof(float);
 }

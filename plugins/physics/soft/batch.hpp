@@ -28,6 +28,8 @@ struct Batch {
     std::uint32_t shared = 0;         // kinds that may be of several blocks; those behind are of one each
 
     bool alike() const { return !nodeAt.empty(); }
+    /// May it fly (soft/flight.hpp)?
+    bool flies() const { return !blocks.pattern.differences.empty(); }
     /// Nodes the planes hold at a time.
     std::size_t room() const { return alike() ? std::size_t{rows} * kLanes : roomFor(rows, blocks.reach); }
     /// block * 8 + lane of the body's spring

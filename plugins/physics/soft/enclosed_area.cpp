@@ -79,12 +79,6 @@ private:
     }
 };
 
-bool holds(const BodyRecord& body)
-{
-    if (body.rigid || body.fixed || !body.enabled || body.soft->open || !(body.soft->restArea > 0)) return false;
-    return body.soft->matter.pressure > 0 || body.soft->matter.areaStiffness > 0;
-}
-
 void push(State& state, const BodyRecord& body, double h, std::vector<Vec2>& gradient)
 {
     Nodes& nodes = state.nodes;
@@ -124,15 +118,21 @@ double enclosedArea(const State& state, const BodyRecord& body)
     return area;
 }
 
+bool holdsGas(const BodyRecord& body)
+{
+    if (body.rigid || body.fixed || !body.enabled || body.soft->open || !(body.soft->restArea > 0)) return false;
+    return body.soft->matter.pressure > 0 || body.soft->matter.areaStiffness > 0;
+}
+
 void applyPressure(State& state, double h)
 {
     for (const BodyRecord& body : state.bodies)
-        if (holds(body)) push(state, body, h, state.scratch.gradient);
+        if (holdsGas(body)) push(state, body, h, state.scratch.gradient);
 }
 
 double gasEnergy(const State& state, const BodyRecord& body, double h)
 {
-    if (!holds(body)) return 0;
+    if (!holdsGas(body)) return 0;
     double lightest = 0;
     eachWall(state, body, [&](const Wall& wall) {
         lightest = std::max({lightest, state.nodes.invMass[wall.first], state.nodes.invMass[wall.second]});

@@ -16,6 +16,8 @@
 
 namespace jet::physics::soft {
 
+/// Does it hold gas, or keep its area?
+bool holdsGas(const BodyRecord&);
 /// Changes the velocities of the bodies that hold gas or keep their area, over h.
 void applyPressure(State&, double h);
 /// What its gas and its area hold, in substeps of h; 0 at the area at rest.

@@ -29,6 +29,13 @@ public:
     bool finish(double dt);
     /// Bodies that joints keep from colliding; ascending.
     std::vector<std::pair<Index, Index>> excluded() const;
+    /// Does any of them hold the body?
+    bool holds(Index body) const
+    {
+        return std::any_of(joints_.begin(), joints_.end(), [body](const Held& held) {
+            return bodyOf(held.joint.def.a) == body || bodyOf(held.joint.def.b) == body;
+        });
+    }
     /// Warm-start impulses are of one substep: for others of another length.
     void scale(double ratio);
 

@@ -24,6 +24,9 @@ inline constexpr std::uint32_t kLanes = 8;
 /// Far above any sensible scene; keeps absurd forces from reaching infinity, where nothing would come back from.
 inline constexpr double kMostSpeed = 1e6;  // units / s
 
+/// Of index, that the springs of a body with a pattern have (layout.hpp).
+inline constexpr std::size_t kMostDifferences = 8;
+
 /// Springs from nodes a .. a + 7 to b .. b + 7.
 struct Run {
     std::uint32_t a = 0, b = 0;
@@ -112,6 +115,8 @@ struct Stretch {
 };
 inline std::size_t headFor(std::size_t reach) { return (reach + 8 + kPortion - 1) / kPortion * kPortion; }
 
+struct FlightKernels;
+
 struct Kernels {
     /// Changes the velocities by the springs, gravity and the forces from outside, as accelerate() does; the planes are
     /// its scratch. A body is gone through once, a few rows at a time: what is related to the frame is pulled at and
@@ -135,6 +140,7 @@ struct Kernels {
                             std::size_t rows, std::size_t count, const VelocityStep* steps, const Planes&);
     /// v += (driftX, driftY), x += h v, after slowing what is faster than kMostSpeed; what is not a number is stopped.
     void (*advance)(double* position, double* velocity, std::size_t nodes, double h, double driftX, double driftY);
+    const FlightKernels* flight;  ///< see flight.hpp
 };
 
 const Kernels& kernelsSse2();

@@ -1,4 +1,5 @@
 // The kernels for processors with AVX2. Compiled with -mavx2; called only where hasAvx2().
+#include "flight_body.hpp"
 #include "kernels_body.hpp"
 
 namespace jet::physics::soft {
@@ -130,6 +131,24 @@ struct Avx2 {
         return n;
     }
 
+    /// Two nodes: x y x y of what they gained, and moved.
+    struct Landing : LandingOne {
+        __m256d time2, way2, gain2;
+        Landing(double t, const FlightReturn& back)
+            : LandingOne(t, back), time2(_mm256_broadcastsd_pd(time)),
+              way2(_mm256_insertf128_pd(_mm256_castpd128_pd256(way), way, 1)),
+              gain2(_mm256_insertf128_pd(_mm256_castpd128_pd256(gain), gain, 1))
+        {
+        }
+        void operator()(double* x, double* v, __m128 gained, __m128 moved) const
+        {
+            const __m256d before = _mm256_loadu_pd(v), went = _mm256_add_pd(_mm256_cvtps_pd(moved), way2);
+            const __m256d all = _mm256_add_pd(_mm256_mul_pd(time2, before), went);
+            _mm256_storeu_pd(x, _mm256_add_pd(_mm256_loadu_pd(x), all));
+            _mm256_storeu_pd(v, _mm256_add_pd(before, _mm256_add_pd(_mm256_cvtps_pd(gained), gain2)));
+        }
+    };
+
     /// From node n on, until one has a component of velocity that is not below `slow`; returns that, or `nodes`.
     static std::size_t advance(double* position, double* velocity, std::size_t n, std::size_t nodes, const Advance& by)
     {
@@ -150,6 +169,10 @@ struct Avx2 {
 
 }  // namespace
 
-const Kernels& kernelsAvx2() { return KernelSet<Avx2>::table; }
+const Kernels& kernelsAvx2()
+{
+    static constexpr Kernels kernels = KernelSet<Avx2>::with(FlightSet<Avx2>::table);
+    return kernels;
+}
 
 }  // namespace jet::physics::soft

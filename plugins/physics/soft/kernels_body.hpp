@@ -64,21 +64,23 @@ struct KernelSet {
     {
         const float* kind = blocks.kinds + 16 * std::size_t{blocks.kind[block]};
         const F8 squared = V::add(V::mul(o.x, o.x), V::mul(o.y, o.y));
+        // The division does not wait for the root: both are slow, and what depends on them stands in line.
         const F8 length = V::sqrt(squared);
-        F8 inverse = V::div(V::one(), length);
+        F8 inverse = V::div(V::one(), squared);
         const F8 rest = V::load(blocks.rest + 8 * block), stiffness = V::load(kind);
         const F8 crushed = V::mul(V::all(kCrushed), rest);
         const bool crush = V::anyAbove(V::most(crushed, V::all(kLeastLength)), length);
         if (crush) inverse = V::zeroUnlessAbove(inverse, length, kLeastLength);
-        const F8 nx = V::mul(o.x, inverse), ny = V::mul(o.y, inverse);
-        const F8 speed = V::add(V::mul(o.vx, nx), V::mul(o.vy, ny));
-        F8 force = V::add(V::mul(stiffness, V::sub(length, rest)), V::mul(V::load(kind + 8), speed));
+        const F8 approach = V::add(V::mul(o.vx, o.x), V::mul(o.vy, o.y));
+        F8 damping = V::mul(V::load(kind + 8), approach);
         if (crush) {
-            const F8 damped = V::mul(V::mul(V::all(blocks.crush), stiffness), speed);
-            force = V::add(force, V::zeroUnlessAbove(damped, V::sub(crushed, length), 0));
+            const F8 damped = V::mul(V::mul(V::all(blocks.crush), stiffness), approach);
+            damping = V::add(damping, V::zeroUnlessAbove(damped, V::sub(crushed, length), 0));
         }
-        fx = V::mul(force, nx);
-        fy = V::mul(force, ny);
+        const F8 pull = V::mul(V::mul(stiffness, V::sub(length, rest)), V::mul(length, inverse));
+        const F8 force = V::add(pull, V::mul(damping, inverse));
+        fx = V::mul(force, o.x);
+        fy = V::mul(force, o.y);
         return blocks.tear && V::anyAbove(length, V::load(blocks.tear + 8 * block));
     }
 
@@ -284,6 +286,9 @@ struct KernelSet {
             fx[at] = fy[at] = 0;
             if (out.near) _mm_storeu_ps(out.near + 4 * at, _mm_setr_ps(x[at], y[at], vx[at], vy[at]));
         }
+        // A block at the end of the body reaches beyond it, with lanes that hold no spring.
+        if (to == way.nodes.count)
+            for (std::size_t k = 0; k < Planes::kCount; ++k) V::store(out.first + k * out.stride + at, V::zero());
     }
 
     static void interleave(const Planes& out, std::size_t at)
@@ -423,8 +428,10 @@ struct KernelSet {
         return _mm_mul_pd(v, _mm_min_pd(scale, splat(1)));
     }
 
-    static constexpr Kernels table{&swing,    &join,       &relateAlike,     &pull,
-                                   &sumAlike, &accelerate, &accelerateAlike, &advance};
+    static constexpr Kernels with(const FlightKernels& flight)
+    {
+        return {&swing, &join, &relateAlike, &pull, &sumAlike, &accelerate, &accelerateAlike, &advance, &flight};
+    }
 };
 
 }  // namespace

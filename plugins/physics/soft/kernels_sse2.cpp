@@ -1,4 +1,5 @@
 // The kernels for any x86-64 processor, and the choice between the instruction sets.
+#include "flight_body.hpp"
 #include "kernels_body.hpp"
 
 namespace jet::physics::soft {
@@ -76,6 +77,16 @@ struct Sse2 {
         return n;
     }
 
+    /// Two nodes: x y x y of what they gained, and moved.
+    struct Landing : LandingOne {
+        using LandingOne::LandingOne;
+        void operator()(double* x, double* v, __m128 gained, __m128 moved) const
+        {
+            one(x, v, _mm_cvtps_pd(gained), _mm_cvtps_pd(moved));
+            one(x + 2, v + 2, _mm_cvtps_pd(_mm_movehl_ps(gained, gained)), _mm_cvtps_pd(_mm_movehl_ps(moved, moved)));
+        }
+    };
+
     /// From node n on, until one has a component of velocity that is not below `slow`; returns that, or `nodes`.
     static std::size_t advance(double* position, double* velocity, std::size_t n, std::size_t nodes, const Advance& by)
     {
@@ -85,7 +96,11 @@ struct Sse2 {
 
 }  // namespace
 
-const Kernels& kernelsSse2() { return KernelSet<Sse2>::table; }
+const Kernels& kernelsSse2()
+{
+    static constexpr Kernels kernels = KernelSet<Sse2>::with(FlightSet<Sse2>::table);
+    return kernels;
+}
 
 bool hasAvx2()
 {

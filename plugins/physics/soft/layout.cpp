@@ -73,16 +73,16 @@ std::vector<Keyed> sortedByDifference(const std::vector<Ends>& springs)
     return keyed;
 }
 
-/// Calls run(base, members) for each window of 8 nodes that holds enough springs, lone(spring) for all others. Windows
-/// start at multiples of 8, so that those of different differences have their first nodes in common.
+/// Calls run(base, members) for each window of 8 nodes that holds at least so many springs, lone(spring) for all
+/// others. Windows start at multiples of 8, so that those of different differences have their first nodes in common;
+/// the last may reach beyond the body.
 template <class RunAct, class LoneAct>
-void cut(const std::vector<Keyed>& keyed, std::uint32_t nodes, RunAct&& run, LoneAct&& lone)
+void cut(const std::vector<Keyed>& keyed, std::size_t least, RunAct&& run, LoneAct&& lone)
 {
     std::size_t i = 0;
     while (i < keyed.size()) {
         const std::uint32_t difference = keyed[i].difference;
-        const std::uint32_t last = nodes >= kLanes + difference ? nodes - kLanes - difference : 0;
-        const std::uint32_t base = std::min(keyed[i].low / kLanes * kLanes, last);
+        const std::uint32_t base = keyed[i].low / kLanes * kLanes;
         std::array<const Keyed*, kLanes> members{};
         std::size_t count = 0, end = i;
         std::vector<const Keyed*> doubles;
@@ -95,7 +95,7 @@ void cut(const std::vector<Keyed>& keyed, std::uint32_t nodes, RunAct&& run, Lon
             }
             ++end;
         }
-        if (count >= kLeastInRun && difference > 0 && base + difference + kLanes <= nodes) {
+        if (count >= least && difference > 0) {
             run(base, difference, members);
             for (const Keyed* twin : doubles) lone(*twin);
             i = end;
@@ -105,12 +105,35 @@ void cut(const std::vector<Keyed>& keyed, std::uint32_t nodes, RunAct&& run, Lon
     }
 }
 
-std::size_t springsInRuns(const std::vector<Ends>& springs, std::uint32_t nodes)
+std::size_t springsInRuns(const std::vector<Ends>& springs)
 {
     std::size_t alone = 0;
     cut(
-        sortedByDifference(springs), nodes, [](auto&&...) {}, [&](const Keyed&) { ++alone; });
+        sortedByDifference(springs), kLeastInRun, [](auto&&...) {}, [&](const Keyed&) { ++alone; });
     return springs.size() - alone;
+}
+
+/// The pattern of these springs, if they have one: with hardly more runs than there must be.
+Pattern patternOf(const std::vector<Keyed>& keyed, std::uint32_t nodes)
+{
+    Pattern pattern;
+    std::vector<std::uint32_t>& differences = pattern.differences;
+    for (const Keyed& spring : keyed) {
+        if (!differences.empty() && differences.back() == spring.difference) continue;
+        if (differences.size() == kMostDifferences || spring.difference == 0) return {};
+        differences.push_back(spring.difference);
+    }
+    pattern.present.assign((nodes + kLanes - 1) / kLanes, 0);
+    std::size_t runs = 0, alone = 0;
+    cut(
+        keyed, 1,
+        [&](std::uint32_t base, std::uint32_t difference, auto&&) {
+            const auto k = std::lower_bound(differences.begin(), differences.end(), difference) - differences.begin();
+            pattern.present[base / kLanes] |= static_cast<std::uint8_t>(1U << k);
+            ++runs;
+        },
+        [&](const Keyed&) { ++alone; });
+    return alone == 0 && runs * kLeastInRun <= keyed.size() ? pattern : Pattern();
 }
 
 /// Runs with the same first nodes one after the other: the kernels read those once.
@@ -146,11 +169,11 @@ Order orderOf(const SoftBodyDef& def)
     std::iota(best.begin(), best.end(), 0U);
     const auto nodes = static_cast<std::uint32_t>(best.size());
     if (nodes < kLanes || def.springs.size() < kLanes) return best;
-    std::size_t most = springsInRuns(endsIn(best, def), nodes);
+    std::size_t most = springsInRuns(endsIn(best, def));
     const double row = 0.5 * shortestSpring(def);
     for (int across : {1, 0}) {
         Order order = byRows(def, across, row);
-        const std::size_t inRuns = springsInRuns(endsIn(order, def), nodes);
+        const std::size_t inRuns = springsInRuns(endsIn(order, def));
         if (inRuns <= most) continue;
         most = inRuns;
         best = std::move(order);
@@ -163,8 +186,10 @@ Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes)
     Blocks blocks;
     blocks.seat.assign(springs.size(), 0);
     std::vector<std::uint32_t> alone;
+    const std::vector<Keyed> keyed = sortedByDifference(springs);
+    blocks.pattern = patternOf(keyed, nodes);
     cut(
-        sortedByDifference(springs), nodes,
+        keyed, blocks.pattern.differences.empty() ? kLeastInRun : 1,
         [&](std::uint32_t base, std::uint32_t difference, const auto& members) {
             for (std::uint32_t k = 0; k < kLanes; ++k)
                 if (members[k])

@@ -19,11 +19,19 @@ struct Ends {
     std::uint32_t a = 0, b = 0;  ///< nodes, counted from the body's first
 };
 
+/// How the springs of a regular lattice lie: in runs alone, of a few differences of index, as where all rows are as
+/// long.
+struct Pattern {
+    std::vector<std::uint32_t> differences;  ///< b - a, ascending; empty: no pattern
+    std::vector<std::uint8_t> present;       ///< [nodes / 8] bit k: a run of differences[k] starts at these 8 nodes
+};
+
 struct Blocks {
     std::vector<Run> runs;
     std::vector<std::uint32_t> ends;  ///< of scattered springs, see SpringBlocks
     std::vector<std::uint32_t> seat;  ///< [springs] block * 8 + lane
     std::uint32_t reach = 0;          ///< nodes from the first of a block to the last, at most
+    Pattern pattern;
 
     std::size_t count() const { return runs.size() + ends.size() / (2 * kLanes); }
 };
@@ -31,7 +39,7 @@ struct Blocks {
 /// Particle of each node: order[node]. A permutation.
 std::vector<std::uint32_t> orderOf(const SoftBodyDef&);
 
-/// Seats for the springs; a run holds at least 5.
+/// Seats for the springs; a run holds at least 5, but where there is a pattern.
 Blocks arrange(const std::vector<Ends>& springs, std::uint32_t nodes);
 
 }  // namespace jet::physics::soft

@@ -1,0 +1,196 @@
+// Soft bodies that nothing else acts on are moved for a whole step at once: soft/flight.hpp.
+#include "scenes.hpp"
+
+#include <algorithm>
+#include <random>
+
+namespace jet::physics::test {
+
+namespace {
+
+constexpr double kCell = 10;  // units
+
+/// `columns` x `rows` particles, joined to their eight neighbours; the first row may be pinned.
+SoftBodyDef sheet(std::uint32_t columns, std::uint32_t rows, bool pinned, double ks = 400, double kd = 0.5,
+                  double tearRatio = 0)
+{
+    SoftBodyDef def;
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x) def.particles.push_back(kCell * Vec2(x, y));
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        def.springs.push_back({a, b, (def.particles[a] - def.particles[b]).norm(), ks, kd, tearRatio});
+    };
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x) {
+            const std::uint32_t i = y * columns + x;
+            if (x + 1 < columns) join(i, i + 1);
+            if (y + 1 < rows) join(i, i + columns);
+            if (x + 1 < columns && y + 1 < rows) join(i, i + columns + 1), join(i + 1, i + columns);
+        }
+    def.masses.assign(def.particles.size(), 0.1);
+    def.movable.assign(def.particles.size(), 1);
+    for (std::uint32_t x = 0; pinned && x < columns; ++x) def.movable[x] = 0;
+    return def;
+}
+
+/// Draws it out of shape, so that it swings.
+SoftBodyDef bent(SoftBodyDef def)
+{
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<double> by(-0.2 * kCell, 0.2 * kCell);
+    for (std::size_t i = 0; i < def.particles.size(); ++i)
+        if (def.movable[i] != 0) def.particles[i] += Vec2(by(engine), by(engine));
+    return def;
+}
+
+/// A field that nothing is in: what it might push goes substep by substep.
+void forbidFlights(PhysicsWorld& world)
+{
+    ForceFieldDef field;
+    field.region = {boxRing({1e6, 1e6}, 10, 10)};
+    field.vector = Vec2(1, 0);
+    world.addForceField(field);
+}
+
+std::vector<Vec2> placesOf(const PhysicsWorld& world, BodyHandle body)
+{
+    const auto points = pointsOf(world, body);
+    return {points.begin(), points.end()};
+}
+
+double farthestApart(const std::vector<Vec2>& p, const std::vector<Vec2>& q)
+{
+    double most = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, (p[i] - q[i]).norm());
+    return most;
+}
+
+Vec2 centreOf(const PhysicsWorld& world, BodyHandle body)
+{
+    Vec2 sum(0, 0);
+    const auto points = pointsOf(world, body);
+    for (const Vec2& p : points) sum += p;
+    return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+TEST(Flight, GoesWhereSubstepsGo)
+{
+    struct Case {
+        std::uint32_t columns, rows;
+        bool pinned;
+        double damping;
+    };
+    for (const Case& is : {Case{24, 20, true, 0}, Case{24, 20, true, 0.8}, Case{24, 20, false, 0},
+                           Case{23, 9, false, 0.8}, Case{100, 90, true, 0}, Case{8, 40, true, 0.3}}) {
+        std::vector<Vec2> places[2];
+        std::uint64_t hashes[2];
+        for (const bool flies : {true, false}) {
+            WorldSettings settings;
+            settings.gravity = Vec2(0, 100);
+            settings.linearDamping = is.damping;
+            const auto world = JetPhysics().createWorld(settings);
+            SoftBodyDef def = bent(sheet(is.columns, is.rows, is.pinned));
+            if (!is.pinned) def.common.omega = 1, def.common.velocity = Vec2(40, -30);
+            const BodyHandle body = world->addSoftBody(def);
+            if (!flies) forbidFlights(*world);
+            run(*world, 1);
+            ASSERT_GT(world->stats().substeps, 1U);
+            places[flies ? 0 : 1] = placesOf(*world, body);
+            hashes[flies ? 0 : 1] = world->hash();
+        }
+        const double apart = farthestApart(places[0], places[1]);
+        EXPECT_LT(apart, 2e-3) << is.columns << " x " << is.rows;  // it falls by 50 units, or swings by as much
+        EXPECT_NE(hashes[0], hashes[1]) << "they are two ways to go";
+    }
+}
+
+TEST(Flight, TheCentreOfMassFallsAsItMust)
+{
+    WorldSettings settings;
+    settings.gravity = Vec2(3, 100);
+    const auto world = JetPhysics().createWorld(settings);
+    SoftBodyDef def = bent(sheet(16, 16, false));
+    def.common.velocity = Vec2(50, 40), def.common.omega = 2;
+    const BodyHandle body = world->addSoftBody(def);
+    Vec2 at = centreOf(*world, body);
+    world->step(kStep);
+    Vec2 velocity = world->bodies().velocity[body];
+    at = centreOf(*world, body);
+    for (int i = 0; i < 120; ++i) {
+        world->step(kStep);
+        // n substeps of h: v += n h g, x += n h v + h² g n (n + 1) / 2
+        const double n = world->stats().substeps, h = kStep / n;
+        at += kStep * velocity + h * h * n * (n + 1) / 2 * settings.gravity;
+        velocity += kStep * settings.gravity;
+        const Vec2 now = centreOf(*world, body);
+        ASSERT_LT((now - at).norm(), 1e-10 * (1 + at.norm())) << i;
+        ASSERT_LT((world->bodies().velocity[body] - velocity).norm(), 1e-11 * (1 + velocity.norm())) << i;
+    }
+}
+
+TEST(Flight, ThreadsAndStatesThatAreRestoredGiveTheSameBits)
+{
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 4}) {
+        WorldSettings settings;
+        settings.gravity = Vec2(0, 100);
+        settings.threads = threads;
+        const auto world = JetPhysics().createWorld(settings), other = JetPhysics().createWorld(settings);
+        for (PhysicsWorld* in : {world.get(), other.get()}) in->addSoftBody(bent(sheet(100, 130, true)));  // in parts
+        run(*world, 0.2);
+        other->restore(world->save());
+        run(*world, 0.2), run(*other, 0.2);
+        EXPECT_EQ(world->hash(), other->hash()) << threads;
+        hashes.push_back(world->hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(Flight, SpringsTearAsTheyDoInSubsteps)
+{
+    std::vector<bool> whole[2];
+    for (const bool flies : {true, false}) {
+        WorldSettings settings;
+        settings.gravity = Vec2(0, 100);
+        const auto world = JetPhysics().createWorld(settings);
+        const SoftBodyDef def = bent(sheet(16, 12, true, 400, 0.5, 1.35));
+        const BodyHandle body = world->addSoftBody(def);
+        if (!flies) forbidFlights(*world);
+        run(*world, 0.5);
+        for (std::uint32_t i = 0; i < def.springs.size(); ++i)
+            whole[flies ? 0 : 1].push_back(world->springAlive(body, i));
+    }
+    EXPECT_GT(std::count(whole[0].begin(), whole[0].end(), false), 0);
+    EXPECT_GT(std::count(whole[0].begin(), whole[0].end(), true), 200);
+    EXPECT_EQ(whole[0], whole[1]);
+}
+
+TEST(Flight, EndsWhereSomethingIsMet)
+{
+    WorldSettings settings;
+    settings.gravity = Vec2(0, 100);
+    const auto world = JetPhysics().createWorld(settings);
+    SoftBodyDef def = sheet(16, 16, false);
+    auto& ring = def.borders.emplace_back();
+    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(i);
+    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(15 + 16 * i);
+    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(255 - i);
+    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(240 - 16 * i);
+    const BodyHandle body = world->addSoftBody(def);
+    const double top = 400;
+    const BodyHandle floor = world->addRigidBody(ground(top));
+    bool met = false;
+    for (int i = 0; i < 600; ++i) {
+        world->step(kStep);
+        met |= world->touching(body, floor);
+        double lowest = 0;
+        for (const Vec2& p : pointsOf(*world, body)) lowest = std::max(lowest, p.y());
+        ASSERT_LT(lowest, top + 0.5) << i;
+    }
+    EXPECT_TRUE(met);
+}
+
+}  // namespace jet::physics::test
