@@ -2,6 +2,7 @@
 
 #include "border.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 

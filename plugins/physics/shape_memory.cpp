@@ -1,5 +1,6 @@
 #include "shape_memory.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace jet::physics {

@@ -86,6 +86,13 @@ bool SoftSprings::fly(State& state, Index handle, double h, int count, const Vec
     state.run(parts, [&](std::size_t k) {
         pinned[k] = kernels.takeOff(arrays, frame, planes, batch.parts[k].first, batch.parts[k].end);
     });
+    std::array<soft::FlightSurvey, soft::kLanes> surveys;
+    const auto survey = [&](bool sums) {
+        state.run(parts, [&](std::size_t k) {
+            surveys[k] =
+                kernels.survey(arrays, &nodes.mass[first], planes, sums, batch.parts[k].first, batch.parts[k].end);
+        });
+    };
     for (int i = 0; i < count; ++i) {
         state.run(parts, [&](std::size_t k) {
             torn[k] = kernels.fly(springsOf(batch, rooms_[k]), pattern, step, planes,
@@ -96,13 +103,16 @@ bool SoftSprings::fly(State& state, Index handle, double h, int count, const Vec
             state.run(parts, [&](std::size_t k) {
                 if (k > 0) kernels.flyHead(step, planes, partOf(batch, k), rooms_[k - 1].spilt.data());
             });
+        // What swings may have been further off than it is at the end.
+        if (std::isfinite(most) && i + 1 < count) {
+            survey(false);
+            const auto strays = [&](const soft::FlightSurvey& part) { return !(part.farthest <= most); };
+            if (std::any_of(surveys.begin(), surveys.begin() + parts, strays)) return false;
+        }
     }
 
     const bool free = std::find(pinned.begin(), pinned.end(), true) == pinned.end();
-    std::array<soft::FlightSurvey, soft::kLanes> surveys;
-    state.run(parts, [&](std::size_t k) {
-        surveys[k] = kernels.survey(arrays, &nodes.mass[first], planes, free, batch.parts[k].first, batch.parts[k].end);
-    });
+    survey(free);
     soft::FlightSurvey all;
     for (std::size_t k = 0; k < parts; ++k) {
         const soft::FlightSurvey& one = surveys[k];

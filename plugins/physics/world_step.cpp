@@ -130,7 +130,10 @@ void World::stepPart(double dt)
         }
         if (i == 0 && settings_.findCollisions) wakeBesideSoft();
         if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
-        if (i == 0) flyFree(h, count);
+        if (i == 0) {
+            const Stopwatch watch(stats_.springsMs);
+            flyFree(h, count);
+        }
         if (!plain && i % soft::Accounts::kSubsteps == 0) {
             accounts_.close(accounted(h));
             accounts_.open(accounted(h));

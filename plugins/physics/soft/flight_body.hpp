@@ -4,6 +4,7 @@
 #include "flight.hpp"
 #include "kernels_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace jet::physics::soft {

@@ -9,6 +9,7 @@
 
 #include "rigid/joint.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace jet::physics::soft {
