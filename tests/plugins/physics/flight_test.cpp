@@ -1,5 +1,5 @@
 // Soft bodies that nothing else acts on are moved for a whole step at once: soft/flight.hpp.
-#include "scenes.hpp"
+#include "lattices.hpp"
 
 #include <algorithm>
 #include <random>
@@ -10,23 +10,12 @@ namespace {
 
 constexpr double kCell = 10;  // units
 
-/// `columns` x `rows` particles, joined to their eight neighbours; the first row may be pinned.
-SoftBodyDef sheet(std::uint32_t columns, std::uint32_t rows, bool pinned, double ks = 400, double kd = 0.5,
-                  double tearRatio = 0)
+/// Light and stiff; the first row may be pinned.
+SoftBodyDef light(std::uint32_t columns, std::uint32_t rows, bool pinned, double tearRatio = 0)
 {
-    SoftBodyDef def;
-    for (std::uint32_t y = 0; y < rows; ++y)
-        for (std::uint32_t x = 0; x < columns; ++x) def.particles.push_back(kCell * Vec2(x, y));
-    const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        def.springs.push_back({a, b, (def.particles[a] - def.particles[b]).norm(), ks, kd, tearRatio});
-    };
-    for (std::uint32_t y = 0; y < rows; ++y)
-        for (std::uint32_t x = 0; x < columns; ++x) {
-            const std::uint32_t i = y * columns + x;
-            if (x + 1 < columns) join(i, i + 1);
-            if (y + 1 < rows) join(i, i + columns);
-            if (x + 1 < columns && y + 1 < rows) join(i, i + columns + 1), join(i + 1, i + columns);
-        }
+    SpringDef spring;
+    spring.ks = 400, spring.kd = 0.5, spring.tearRatio = tearRatio;
+    SoftBodyDef def = sheet(columns, rows, kCell, spring);
     def.masses.assign(def.particles.size(), 0.1);
     def.movable.assign(def.particles.size(), 1);
     for (std::uint32_t x = 0; pinned && x < columns; ++x) def.movable[x] = 0;
@@ -91,7 +80,7 @@ TEST(Flight, GoesWhereSubstepsGo)
             settings.gravity = Vec2(0, 100);
             settings.linearDamping = is.damping;
             const auto world = JetPhysics().createWorld(settings);
-            SoftBodyDef def = bent(sheet(is.columns, is.rows, is.pinned));
+            SoftBodyDef def = bent(light(is.columns, is.rows, is.pinned));
             if (!is.pinned) def.common.omega = 1, def.common.velocity = Vec2(40, -30);
             const BodyHandle body = world->addSoftBody(def);
             if (!flies) forbidFlights(*world);
@@ -111,7 +100,7 @@ TEST(Flight, TheCentreOfMassFallsAsItMust)
     WorldSettings settings;
     settings.gravity = Vec2(3, 100);
     const auto world = JetPhysics().createWorld(settings);
-    SoftBodyDef def = bent(sheet(16, 16, false));
+    SoftBodyDef def = bent(light(16, 16, false));
     def.common.velocity = Vec2(50, 40), def.common.omega = 2;
     const BodyHandle body = world->addSoftBody(def);
     Vec2 at = centreOf(*world, body);
@@ -138,7 +127,7 @@ TEST(Flight, ThreadsAndStatesThatAreRestoredGiveTheSameBits)
         settings.gravity = Vec2(0, 100);
         settings.threads = threads;
         const auto world = JetPhysics().createWorld(settings), other = JetPhysics().createWorld(settings);
-        for (PhysicsWorld* in : {world.get(), other.get()}) in->addSoftBody(bent(sheet(100, 130, true)));  // in parts
+        for (PhysicsWorld* in : {world.get(), other.get()}) in->addSoftBody(bent(light(100, 130, true)));  // in parts
         run(*world, 0.2);
         other->restore(world->save());
         run(*world, 0.2), run(*other, 0.2);
@@ -156,7 +145,7 @@ TEST(Flight, SpringsTearAsTheyDoInSubsteps)
         WorldSettings settings;
         settings.gravity = Vec2(0, 100);
         const auto world = JetPhysics().createWorld(settings);
-        const SoftBodyDef def = bent(sheet(16, 12, true, 400, 0.5, 1.35));
+        const SoftBodyDef def = bent(light(16, 12, true, 1.35));
         const BodyHandle body = world->addSoftBody(def);
         if (!flies) forbidFlights(*world);
         run(*world, 0.5);
@@ -173,7 +162,7 @@ TEST(Flight, EndsWhereSomethingIsMet)
     WorldSettings settings;
     settings.gravity = Vec2(0, 100);
     const auto world = JetPhysics().createWorld(settings);
-    SoftBodyDef def = sheet(16, 16, false);
+    SoftBodyDef def = light(16, 16, false);
     auto& ring = def.borders.emplace_back();
     for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(i);
     for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(15 + 16 * i);

@@ -92,4 +92,26 @@ inline SoftBodyDef banana(const Vec2& centre, double radius)
     return lattice(outline, radius / 5);
 }
 
+/// `columns` x `rows` particles of mass 1, `cell` apart from the origin on, joined to their eight neighbours by springs
+/// like this one.
+inline SoftBodyDef sheet(std::uint32_t columns, std::uint32_t rows, double cell = 1, SpringDef spring = {})
+{
+    SoftBodyDef def;
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x) def.particles.push_back(cell * Vec2(x, y));
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        spring.a = a, spring.b = b, spring.restLength = (def.particles[a] - def.particles[b]).norm();
+        def.springs.push_back(spring);
+    };
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x) {
+            const std::uint32_t i = y * columns + x;
+            if (x + 1 < columns) join(i, i + 1);
+            if (y + 1 < rows) join(i, i + columns);
+            if (x + 1 < columns && y + 1 < rows) join(i, i + columns + 1), join(i + 1, i + columns);
+        }
+    def.masses.assign(def.particles.size(), 1);
+    return def;
+}
+
 }  // namespace jet::physics::test

@@ -9,25 +9,7 @@ namespace jet::physics::soft {
 
 namespace {
 
-/// `columns` x `rows` particles, a unit apart, joined to their eight neighbours.
-SoftBodyDef sheet(std::uint32_t columns, std::uint32_t rows)
-{
-    SoftBodyDef def;
-    for (std::uint32_t y = 0; y < rows; ++y)
-        for (std::uint32_t x = 0; x < columns; ++x) def.particles.emplace_back(x, y);
-    const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        def.springs.push_back({a, b, (def.particles[a] - def.particles[b]).norm(), 10, 0.1, 0});
-    };
-    for (std::uint32_t y = 0; y < rows; ++y)
-        for (std::uint32_t x = 0; x < columns; ++x) {
-            const std::uint32_t i = y * columns + x;
-            if (x + 1 < columns) join(i, i + 1);
-            if (y + 1 < rows) join(i, i + columns);
-            if (x + 1 < columns && y + 1 < rows) join(i, i + columns + 1), join(i + 1, i + columns);
-        }
-    def.masses.assign(def.particles.size(), 1);
-    return def;
-}
+using test::sheet;
 
 std::vector<Ends> endsOf(const SoftBodyDef& def, const std::vector<std::uint32_t>& order)
 {
