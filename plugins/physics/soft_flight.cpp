@@ -21,7 +21,7 @@ struct FlightRoom {
     {
         const std::size_t padded = (nodes + soft::kLanes - 1) / soft::kLanes;
         stride = (padded + 2) * soft::kLanes, planes = soft::FlightPlanes::kCount * stride;
-        rows = padded * soft::kFlightRow;
+        rows = (nodes + soft::kFlightLanes - 1) / soft::kFlightLanes * soft::kFlightRow;
     }
     std::size_t total() const { return planes + rows; }
 };
@@ -55,7 +55,8 @@ void SoftSprings::makeFlightRoom()
         if (!batch.flies()) continue;
         room = std::max(room, FlightRoom(batch.rows).total());
         const std::size_t planes = 2 * (batch.blocks.pattern.differences.size() + 1);
-        ring = std::max(ring, planes * (soft::FlightRing::sizeFor(batch.blocks.reach) + soft::kLanes));
+        const soft::FlightRing needed{nullptr, soft::FlightRing::sizeFor(batch.blocks.reach)};
+        ring = std::max(ring, planes * needed.stride());
         parts = std::max(parts, batch.parts.size());
     }
     flight_.resize(room);
@@ -77,8 +78,8 @@ bool SoftSprings::fly(State& state, Index handle, double h, int count, const Vec
     const soft::Pattern& lies = batch.blocks.pattern;
     const soft::FlightPattern pattern{lies.differences.data(), lies.differences.size(), lies.present.data()};
     const auto single = [](double value) { return static_cast<float>(value); };
-    const soft::FlightStep step{single(h),           single(kept * h), single(kept - 1), single(gravity.x()),
-                                single(gravity.y()), single(frame.vx), single(frame.vy)};
+    soft::FlightStep step{single(h),           single(kept * h), single(kept - 1), single(gravity.x()),
+                          single(gravity.y()), single(frame.vx), single(frame.vy), true};
 
     const std::size_t parts = batch.parts.size();
     std::array<std::size_t, soft::kLanes> torn{};
@@ -103,6 +104,7 @@ bool SoftSprings::fly(State& state, Index handle, double h, int count, const Vec
             state.run(parts, [&](std::size_t k) {
                 if (k > 0) kernels.flyHead(step, planes, partOf(batch, k), rooms_[k - 1].spilt.data());
             });
+        step.first = false;
         // What swings may have been further off than it is at the end.
         if (std::isfinite(most) && i + 1 < count) {
             survey(false);

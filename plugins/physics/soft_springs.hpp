@@ -174,7 +174,7 @@ private:
     void applyAngularSpring(State&, Angular&, double h);
     static double energy(const State&, const Angular&, double h);
 
-    const soft::Kernels* kernels_ = &soft::bestKernels();
+    const soft::Kernels* kernels_ = &soft::kernelsFor(Simd::Automatic);
     std::vector<Index> a_, b_;  // nodes
     std::vector<double> rest_;
     std::vector<Index> kind_;  // into kinds_: most springs of a body are alike

@@ -2,6 +2,8 @@
 
 #include "room.hpp"
 
+#include <algorithm>
+
 namespace jet::physics {
 
 void Nodes::addParticle(const Vec2& at, double nodeMass, double inverseMass)
@@ -61,7 +63,11 @@ void updatePoints(State& state)
             state.run((body.points.count + kTogether - 1) / kTogether, [&](std::size_t block) {
                 const std::size_t first = body.points.first + block * kTogether;
                 const std::size_t end = std::min<std::size_t>(body.points.end(), first + kTogether);
-                for (std::size_t p = first; p < end; ++p) points.position[p] = state.nodes.position[points.node[p]];
+                const auto now = state.nodes.position.begin();
+                if (body.soft->inOrder)
+                    std::copy_n(now + points.node[first], end - first, points.position.begin() + first);
+                else
+                    for (std::size_t p = first; p < end; ++p) points.position[p] = now[points.node[p]];
             });
         }
     }
@@ -95,8 +101,7 @@ void readSoft(State& state, Index handle)
     state.readings.position[handle] = {sums.x, sums.y};
     state.readings.velocity[handle] = {sums.vx, sums.vy};
     state.readings.omega[handle] = sums.omega();
-    Box& bounds = state.readings.bounds[handle];
-    state.clouds->bounds(state.nodes.position[first].data(), body.nodes.count, bounds.min.data(), bounds.max.data());
+    state.readings.bounds[handle] = {Vec2(sums.lowest[0], sums.lowest[1]), Vec2(sums.greatest[0], sums.greatest[1])};
 }
 
 }  // namespace

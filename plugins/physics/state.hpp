@@ -89,6 +89,7 @@ struct SoftRecord {
     double restArea = 0;            // inside the borders at rest, units²
     Range springs, angularSprings;  // into SoftSprings
     bool open = false;              // torn at its border, which lets gas out
+    bool inOrder = false;           // its points lie as its nodes do
     Index pieceCount = 1;
     std::vector<Index> pieces;          // [particles] of a torn body; empty: whole
     std::vector<Vec2> restArms;         // particles from the centre of mass at rest

@@ -14,7 +14,7 @@ World::World(const WorldSettings& settings) : settings_(settings)
     checks().check(settings);
     if (settings.method == Method::SemiImplicitEuler) settings_.substeps = 1;
     const bool avx2 = settings.simd != Simd::Sse2 && soft::hasAvx2();
-    springs_.use(avx2 ? soft::kernelsAvx2() : soft::kernelsSse2());
+    springs_.use(soft::kernelsFor(settings.simd));
     const soft::CloudKernels& clouds = avx2 ? soft::avx2::clouds : soft::sse2::clouds;
     shapes_.use(clouds), twins_.use(clouds), finder_.use(clouds);
     state_.clouds = &clouds;
@@ -110,6 +110,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
         nodeOf[i] = body.nodes.first + k;
     }
     for (Index i = 0; i < count; ++i) addPoint(body, nodeOf[i], Vec2(0, 0), def.particles[i]);
+    soft.inOrder = std::is_sorted(nodeOf.begin(), nodeOf.end());
     soft.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
     Vec2 centre(0, 0);
     for (Index i = 0; i < count; ++i) centre += def.masses[i] / soft.mass * def.particles[i];

@@ -22,6 +22,8 @@ struct CloudSums {
     double momentum = 0;                  // sum m p x v
     double along = 0, across = 0;         // with a shape at rest q, whose own sum m q is null: sum m q·p, sum m q x p
 
+    double lowest[2]{}, greatest[2]{};  // x and y of any particle
+
     double omega() const { return inertia > 0 ? momentum / inertia : 0; }
 };
 
@@ -57,8 +59,6 @@ struct CloudReturn {
 
 struct CloudKernels {
     CloudSums (*sums)(const Cloud&);
-    /// The least and the greatest x and y of at least one particle.
-    void (*bounds)(const double* position, std::size_t count, double* least, double* greatest);
     CloudStray (*stray)(const Cloud&, const CloudMotion&);
     /// Fills change [count][2] with what draws each particle to its goal, unless there is nothing.
     CloudPulled (*pull)(const Cloud&, const CloudMotion&, const CloudPull&, double* change);

@@ -26,9 +26,11 @@ CloudSums sums(const Cloud& cloud)
     CloudSums sums;
     if (cloud.count == 0) return sums;
     const Two from = both(cloud.position[0], cloud.position[1]);
+    Two low = from, high = from;
     Two mass{}, place{}, moving{}, own{}, turning{}, along{}, across{};
     eachTwo(cloud.count, [&](std::size_t n, bool two) JET_ALWAYS {
-        const Two m = masses(cloud.mass, n, two), at = vectors(cloud.position, n, two) - from;
+        const Two m = masses(cloud.mass, n, two), now = vectors(cloud.position, n, two), at = now - from;
+        low = least(low, now), high = most(high, now);
         const Two weighed = m * at, speed = vectors(cloud.velocity, n, two);
         mass += m, place += weighed, moving += m * speed, own += weighed * at, turning += weighed * swapped(speed);
         if (!cloud.rest) return;
@@ -44,20 +46,11 @@ CloudSums sums(const Cloud& cloud)
     sums.along = sumX(along) + sumY(along);
     sums.across = sumX(across) - sumY(across);
     sums.x = cloud.position[0] + x, sums.y = cloud.position[1] + y;
-    return sums;
-}
-
-void bounds(const double* position, std::size_t count, double* lowest, double* greatest)
-{
-    Two low = both(position[0], position[1]), high = low;
-    eachTwo(count, [&](std::size_t n, bool two) JET_ALWAYS {
-        const Two at = vectors(position, n, two);
-        low = least(low, at), high = most(high, at);
-    });
     for (int axis = 0; axis < 2; ++axis) {
-        lowest[axis] = lowOf(low)[axis] < highOf(low)[axis] ? lowOf(low)[axis] : highOf(low)[axis];
-        greatest[axis] = lowOf(high)[axis] > highOf(high)[axis] ? lowOf(high)[axis] : highOf(high)[axis];
+        sums.lowest[axis] = lowOf(low)[axis] < highOf(low)[axis] ? lowOf(low)[axis] : highOf(low)[axis];
+        sums.greatest[axis] = lowOf(high)[axis] > highOf(high)[axis] ? lowOf(high)[axis] : highOf(high)[axis];
     }
+    return sums;
 }
 
 /// What of the velocities is not the motion's.
@@ -135,4 +128,4 @@ double farthest(const double* position, const double* from, const double* moving
 
 }  // namespace
 
-const CloudKernels clouds{&sums, &bounds, &stray, &pull, &give, &farthest};
+const CloudKernels clouds{&sums, &stray, &pull, &give, &farthest};

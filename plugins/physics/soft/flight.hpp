@@ -23,8 +23,10 @@
 
 namespace jet::physics::soft {
 
-/// What a flight is made of, for each 8 nodes: changes of velocity D along x and y, ways H, inverse masses.
-inline constexpr std::size_t kFlightRow = 5 * kLanes;
+/// Nodes that are moved together where the processor can.
+inline constexpr std::size_t kFlightLanes = 16;
+/// What a flight is made of, for so many nodes: changes of velocity D along x and y, ways H, inverse masses.
+inline constexpr std::size_t kFlightRow = 5 * kFlightLanes;
 
 /// A body in flight. Room for 8 nodes more than it has.
 struct FlightPlanes {
@@ -32,14 +34,18 @@ struct FlightPlanes {
 
     float* first;        ///< plane X: units from the frame, which moves uniformly
     std::size_t stride;  ///< from each plane to the next
-    float* rows;         ///< [nodes / 8][kFlightRow]
+    float* rows;         ///< [nodes / kFlightLanes][kFlightRow]
+
+    /// D along x of a node; the others follow, kFlightLanes apart.
+    float* row(std::size_t node) const { return rows + node / kFlightLanes * kFlightRow + node % kFlightLanes; }
 };
 
 /// Forces not yet gathered: for each difference and the sums of blocks at their first nodes, planes along x and y.
 struct FlightRing {
-    float* first;      ///< [2 (differences + 1)][size + 8]: the first 8 stand at the end once more
+    float* first;      ///< [2 (differences + 1)][stride()]: the first kFlightLanes stand at the end once more
     std::size_t size;  ///< nodes, a power of two
 
+    std::size_t stride() const { return size + kFlightLanes; }
     /// Nodes it must hold for blocks of that reach.
     static std::size_t sizeFor(std::size_t reach)
     {
@@ -62,6 +68,7 @@ struct FlightStep {
     float lost = 0;           ///< that part - 1
     float gravityX = 0, gravityY = 0;
     float frameVx = 0, frameVy = 0;
+    bool first = false;  ///< of the flight: D and H are not yet there
 };
 
 /// What became of a part of a body.
@@ -79,7 +86,7 @@ struct FlightReturn {
 };
 
 struct FlightKernels {
-    /// Fills the planes of a part; true if any of its nodes never moves.
+    /// Fills the planes of a part, but for D and H; true if any of its nodes never moves.
     bool (*takeOff)(const NodeArrays&, const Frame&, const FlightPlanes&, std::size_t first, std::size_t end);
     /// A substep of a part, but for the nodes of its head; returns how many blocks it put into SpringBlocks::torn.
     std::size_t (*fly)(const SpringBlocks&, const FlightPattern&, const FlightStep&, const FlightPlanes&,

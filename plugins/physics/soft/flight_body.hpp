@@ -27,7 +27,8 @@ struct LandingOne {
     }
 };
 
-template <class V>
+/// V: 8 lanes; W: as many as are computed at a time, of one row of 8 or two.
+template <class V, class W = V>
 struct FlightSet {
     using F8 = typename V::F8;
     using Springs = KernelSet<V>;
@@ -53,17 +54,13 @@ struct FlightSet {
         // Beyond the end of the body, where lanes hold no spring.
         if (end == nodes.count)
             for (std::size_t k = 0; k < FlightPlanes::kCount; ++k) V::store(x + k * out.stride + end, V::zero());
-        for (std::size_t row = first; row < end; row += kLanes)
-            for (std::size_t k = 0; k < 4; ++k) V::store(out.rows + row / kLanes * kFlightRow + k * kLanes, V::zero());
         __m128d least = splat(1);
         const auto weigh = [&](const double* inverse, float* to) {
             const __m128d low = _mm_loadu_pd(inverse), high = _mm_loadu_pd(inverse + 2);
             least = _mm_min_pd(least, _mm_min_pd(low, high));
             _mm_storeu_ps(to, _mm_movelh_ps(_mm_cvtpd_ps(low), _mm_cvtpd_ps(high)));
         };
-        const auto inverse = [&](std::size_t node) {
-            return out.rows + node / kLanes * kFlightRow + 4 * kLanes + node % kLanes;
-        };
+        const auto inverse = [&](std::size_t node) { return out.row(node) + 4 * kFlightLanes; };
         for (n = first; n + 4 <= end; n += 4) weigh(nodes.inverseMass + n, inverse(n));
         bool pinned = _mm_movemask_pd(_mm_cmple_pd(least, _mm_setzero_pd())) != 0;
         for (; n < padded(end); ++n) {
@@ -78,155 +75,229 @@ struct FlightSet {
         const std::size_t size, stride, mask;
 
         explicit Ring(const FlightRing& ring)
-            : first(ring.first), size(ring.size), stride(ring.size + kLanes), mask(ring.size - 1)
+            : first(ring.first), size(ring.size), stride(ring.stride()), mask(ring.size - 1)
         {
         }
         float* at(std::size_t plane, std::size_t node) const { return first + plane * stride + (node & mask); }
         /// After what starts at node, a multiple of 8, was put down: for who reads across the end of the ring.
         void repeat(std::size_t planes, std::size_t node) const
         {
-            if ((node & mask) != 0) return;
-            for (std::size_t k = 0; k < planes; ++k) V::store(first + k * stride + size, V::load(first + k * stride));
+            if ((node & mask) >= kFlightLanes) return;
+            float* const from = first + (node & mask);
+            for (std::size_t k = 0; k < planes; ++k) V::store(from + k * stride + size, V::load(from + k * stride));
         }
     };
 
-    /// What pulls at 8 nodes. kCount: number of differences; 0: any.
-    template <std::size_t kCount>
-    static void gather(const std::size_t* differences, std::size_t any, const Ring& ring, std::size_t node, F8& x,
-                       F8& y)
-    {
-        const std::size_t count = kCount > 0 ? kCount : any;
-        x = V::zero(), y = V::zero();
-#pragma GCC unroll 4
-        for (std::size_t k = 0; k < count; ++k) {
-            const float* from = ring.at(2 * k, node - differences[k]);
-            x = V::add(x, V::load(from)), y = V::add(y, V::load(from + ring.stride));
-        }
-        const float* own = ring.at(2 * count, node);
-        x = V::sub(x, V::load(own)), y = V::sub(y, V::load(own + ring.stride));
-    }
+    /// Moves the nodes at which these forces pull.
+    template <class L>
+    struct Mover {
+        using F = typename L::F;
+        FlightPlanes planes;
+        F h, pushed, lost, gravityX, gravityY, frameVx, frameVy;
+        bool damped, first;
 
-    /// The blocks that start at nodes from one to another. On its own, as it needs all registers.
+        Mover(const FlightStep& step, const FlightPlanes& planes_)
+            : planes(planes_), h(L::all(step.h)), pushed(L::all(step.pushed)), lost(L::all(step.lost)),
+              gravityX(L::all(step.gravityX)), gravityY(L::all(step.gravityY)), frameVx(L::all(step.frameVx)),
+              frameVy(L::all(step.frameVy)), damped(step.lost != 0), first(step.first)
+        {
+        }
+        void operator()(std::size_t node, F fx, F fy) const
+        {
+            float* const own = planes.row(node);
+            const F inverse = L::load(own + 4 * kFlightLanes);
+            axis(planes.first + node, own, gain(gravityX, inverse, fx), frameVx);
+            axis(planes.first + planes.stride + node, own + kFlightLanes, gain(gravityY, inverse, fy), frameVy);
+        }
+
+    private:
+        F gain(F gravity, F inverse, F force) const
+        {
+            const F fall = L::zeroUnlessAbove(gravity, inverse, 0);
+            return L::mul(pushed, L::add(fall, L::mul(inverse, force)));
+        }
+        void axis(float* place, float* own, F gained, F frame) const
+        {
+            float *const velocity = place + 2 * planes.stride, *const moved = own + 2 * kFlightLanes;
+            const F before = L::load(velocity);
+            if (damped) gained = L::add(gained, L::mul(lost, L::add(before, frame)));
+            const F now = L::add(before, gained), change = first ? gained : L::add(L::load(own), gained);
+            const F way = L::mul(h, change);
+            L::store(velocity, now);
+            L::store(own, change);
+            L::store(moved, first ? way : L::add(L::load(moved), way));
+            L::store(place, L::add(L::load(place), L::mul(h, now)));
+        }
+    };
+
+    /// The way of a part through its nodes: their springs pull, and a little behind, when all that pulls at them is
+    /// known and written, they are moved. kCount: number of differences; 0: any.
     template <std::size_t kCount>
-    [[gnu::noinline]] static void pull(const SpringBlocks& blocks, const FlightPattern& pattern,
-                                       const std::size_t* differences, const FlightPlanes& planes, const Ring& ring,
-                                       std::size_t from, std::size_t to, std::size_t& next, std::size_t& torn)
-    {
-        const SpringBlocks of = blocks;
-        const std::size_t count = kCount > 0 ? kCount : pattern.count, stride = planes.stride;
-        std::size_t block = next, tears = torn;
-        for (std::size_t node = from; node < to; node += kLanes) {
+    struct Passage {
+        const SpringBlocks of;
+        const std::uint8_t* const presence;
+        const FlightPlanes planes;
+        const Ring ring;
+        const Stretch part;
+        const Mover<V> move;
+        const Mover<W> moveMany;
+        const std::size_t any, room;
+        std::size_t differences[kMostDifferences];
+        std::size_t block, torn = 0;
+
+        static constexpr std::size_t kWide = W::kRows * kLanes;
+        static constexpr std::size_t kBehind = 96;  // nodes; forces should be in the cache, not on their way there
+        static_assert(kBehind % kWide == 0 && kPortion % kWide == 0);
+
+        Passage(const SpringBlocks& blocks, const FlightPattern& pattern, const FlightStep& step,
+                const FlightPlanes& planes_, const FlightRing& in, const Stretch& part_)
+            : of(blocks), presence(pattern.present), planes(planes_), ring(in), part(part_), move(step, planes_),
+              moveMany(step, planes_), any(pattern.count), room(headFor(blocks.reach)), block(part_.run)
+        {
+            std::copy_n(pattern.differences, any, differences);
+            std::fill_n(ring.first, 2 * (any + 1) * ring.stride, 0.0F);
+        }
+        std::size_t count() const { return kCount > 0 ? kCount : any; }
+
+        void go()
+        {
+            const std::size_t end = padded(part.end);
+            std::size_t node = part.first, settled = part.first;
+            for (; node + kWide <= end; node += kWide) {
+                if (!pullWhole<W>(node)) {
+                    pull(node);
+                    if constexpr (W::kRows == 2) pull(node + kLanes);
+                }
+                for (std::size_t row = node; row < node + kWide; row += kLanes) ring.repeat(2 * (count() + 1), row);
+                if (node < settled + kBehind) continue;
+                settle<W>(settled, moveMany);
+                settled += kWide;
+            }
+            for (; node < end; node += kLanes) {
+                pull(node);
+                ring.repeat(2 * (count() + 1), node);
+            }
+            for (; settled < end; settled += kLanes) settle<V>(settled, move);
+            if (part.spilt) spill();
+        }
+
+    private:
+        void pull(std::size_t node)
+        {
+            if (W::kRows == 1 || !pullWhole<V>(node)) pullRow(node);
+        }
+        /// The blocks that start at these nodes, if there is one for each difference, and none tears or is crushed.
+        template <class L>
+        bool pullWhole(std::size_t node)
+        {
+            using F = typename L::F;
+            if constexpr (kCount == 0) return false;
+            if (of.tear) return false;
+            for (std::size_t row = 0; row < L::kRows; ++row)
+                if (presence[node / kLanes + row] != (1U << kCount) - 1) return false;
+            const std::size_t stride = planes.stride;
+            const float* const a = planes.first + node;
+            const F x = L::load(a), y = L::load(a + stride);
+            const F vx = L::load(a + 2 * stride), vy = L::load(a + 3 * stride);
+            F sumX = L::zero(), sumY = L::zero();
+            typename L::Mask crushed = L::none();
+            float* to = ring.at(0, node);
+#pragma GCC unroll 4
+            for (std::size_t k = 0; k < kCount; ++k) {
+                const float* const b = a + differences[k];
+                const F offX = L::sub(x, L::load(b)), offY = L::sub(y, L::load(b + stride));
+                const F offVx = L::sub(vx, L::load(b + 2 * stride)), offVy = L::sub(vy, L::load(b + 3 * stride));
+                // As in KernelSet::tension.
+                const F squared = squares<L>(offX, offY);
+                const F length = L::sqrt(squared), inverse = L::div(L::one(), squared);
+                const std::uint32_t* const kind = of.kind + block + k;
+                const auto each = [&](const float* kinds) {
+                    return L::rows([=](std::size_t row) { return kinds + 16 * std::size_t{kind[row * kCount]}; });
+                };
+                const F rest = L::rows([&](std::size_t row) { return of.rest + 8 * (block + row * kCount + k); });
+                const F least = L::most(L::mul(L::all(kCrushed), rest), L::all(kLeastLength));
+                crushed = L::either(crushed, L::above(least, length));
+                const F approach = L::add(L::mul(offVx, offX), L::mul(offVy, offY));
+                const F pull = L::mul(L::mul(each(of.kinds), L::sub(length, rest)), L::mul(length, inverse));
+                const F force = L::add(pull, L::mul(L::mul(each(of.kinds + 8), approach), inverse));
+                const F fx = L::mul(force, offX), fy = L::mul(force, offY);
+                sumX = L::add(sumX, fx), sumY = L::add(sumY, fy);
+                L::store(to, fx), L::store(to + ring.stride, fy);
+                to += 2 * ring.stride;
+            }
+            L::store(to, sumX), L::store(to + ring.stride, sumY);
+            if (L::any(crushed)) return false;
+            block += L::kRows * kCount;
+            return true;
+        }
+        /// The blocks that start at 8 nodes, whatever they are.
+        [[gnu::noinline]] void pullRow(std::size_t node)
+        {
+            const std::size_t stride = planes.stride;
             const float* const a = planes.first + node;
             const typename Springs::Offsets at{V::load(a), V::load(a + stride), V::load(a + 2 * stride),
                                                V::load(a + 3 * stride)};
             F8 sumX = V::zero(), sumY = V::zero();
-            const unsigned present = pattern.present[node / kLanes];
-#pragma GCC unroll 4
-            for (std::size_t k = 0; k < count; ++k) {
+            for (std::size_t k = 0; k < count(); ++k) {
                 F8 fx = V::zero(), fy = V::zero();
-                if ((present >> k & 1U) != 0) {
+                if ((presence[node / kLanes] >> k & 1) != 0) {
                     const float* const b = a + differences[k];
                     const typename Springs::Offsets apart{V::sub(at.x, V::load(b)), V::sub(at.y, V::load(b + stride)),
                                                           V::sub(at.vx, V::load(b + 2 * stride)),
                                                           V::sub(at.vy, V::load(b + 3 * stride))};
-                    if (Springs::tension(of, block, apart, fx, fy))
-                        of.torn[tears++] = static_cast<std::uint32_t>(block);
+                    if (Springs::tension(of, block, apart, fx, fy)) of.torn[torn++] = static_cast<std::uint32_t>(block);
                     sumX = V::add(sumX, fx), sumY = V::add(sumY, fy);
                     ++block;
                 }
                 float* const to = ring.at(2 * k, node);
                 V::store(to, fx), V::store(to + ring.stride, fy);
             }
-            float* const own = ring.at(2 * count, node);
+            float* const own = ring.at(2 * count(), node);
             V::store(own, sumX), V::store(own + ring.stride, sumY);
-            ring.repeat(2 * (count + 1), node);
         }
-        next = block, torn = tears;
-    }
-
-    /// Moves 8 nodes at which these forces pull.
-    struct Mover {
-        const FlightPlanes& planes;
-        F8 h, pushed, lost, gravityX, gravityY, frameVx, frameVy;
-        bool damped;
-
-        Mover(const FlightStep& step, const FlightPlanes& planes_)
-            : planes(planes_), h(V::all(step.h)), pushed(V::all(step.pushed)), lost(V::all(step.lost)),
-              gravityX(V::all(step.gravityX)), gravityY(V::all(step.gravityY)), frameVx(V::all(step.frameVx)),
-              frameVy(V::all(step.frameVy)), damped(step.lost != 0)
+        /// What pulls at these nodes.
+        template <class L>
+        void gather(std::size_t node, typename L::F& x, typename L::F& y) const
         {
+            const std::size_t count = kCount > 0 ? kCount : any;
+            x = L::zero(), y = L::zero();
+#pragma GCC unroll 4
+            for (std::size_t k = 0; k < count; ++k) {
+                const float* from = ring.at(2 * k, node - differences[k]);
+                x = L::add(x, L::load(from)), y = L::add(y, L::load(from + ring.stride));
+            }
+            const float* own = ring.at(2 * count, node);
+            x = L::sub(x, L::load(own)), y = L::sub(y, L::load(own + ring.stride));
         }
-        void operator()(std::size_t node, F8 fx, F8 fy) const
+        template <class L>
+        void settle(std::size_t node, const Mover<L>& mover)
         {
-            float* const own = planes.rows + node / kLanes * kFlightRow;
-            const F8 inverse = V::load(own + 4 * kLanes);
-            axis(planes.first + node, own, gain(gravityX, inverse, fx), frameVx);
-            axis(planes.first + planes.stride + node, own + kLanes, gain(gravityY, inverse, fy), frameVy);
+            typename L::F fx, fy;
+            gather<L>(node, fx, fy);
+            if (node >= part.first + part.head) return mover(node, fx, fy);
+            float* const held = part.held + (node - part.first);
+            L::store(held, fx), L::store(held + room, fy);
         }
-
-    private:
-        F8 gain(F8 gravity, F8 inverse, F8 force) const
+        void spill()
         {
-            const F8 fall = V::zeroUnlessAbove(gravity, inverse, 0);
-            return V::mul(pushed, V::add(fall, V::mul(inverse, force)));
-        }
-        void axis(float* place, float* own, F8 gained, F8 frame) const
-        {
-            float* const velocity = place + 2 * planes.stride;
-            const F8 before = V::load(velocity);
-            if (damped) gained = V::add(gained, V::mul(lost, V::add(before, frame)));
-            const F8 now = V::add(before, gained), change = V::add(V::load(own), gained);
-            V::store(velocity, now);
-            V::store(own, change);
-            V::store(own + 2 * kLanes, V::add(V::load(own + 2 * kLanes), V::mul(h, change)));
-            V::store(place, V::add(V::load(place), V::mul(h, now)));
+            F8 fx, fy;
+            for (std::size_t node = part.end; node < part.end + room; node += kLanes) {
+                for (std::size_t k = 0; k < 2 * (count() + 1); ++k) V::store(ring.at(k, node), V::zero());
+                ring.repeat(2 * (count() + 1), node);
+                gather<V>(node, fx, fy);
+                float* const spilt = part.spilt + (node - part.end);
+                V::store(spilt, fx), V::store(spilt + room, fy);
+            }
         }
     };
 
     template <std::size_t kCount>
-    [[gnu::noinline]] static void moveOn(const std::size_t* differences, std::size_t count, const Ring& ring,
-                                         const Mover& move, std::size_t from, std::size_t to)
-    {
-        F8 fx, fy;
-        for (std::size_t node = from; node < to; node += kLanes) {
-            gather<kCount>(differences, count, ring, node, fx, fy);
-            move(node, fx, fy);
-        }
-    }
-
-    template <std::size_t kCount>
     static std::size_t flyOf(const SpringBlocks& blocks, const FlightPattern& pattern, const FlightStep& step,
-                             const FlightPlanes& planes, const FlightRing& in, const Stretch& part)
+                             const FlightPlanes& planes, const FlightRing& ring, const Stretch& part)
     {
-        const Ring ring(in);
-        const Mover move(step, planes);
-        const std::size_t count = pattern.count, room = headFor(blocks.reach);
-        std::fill_n(ring.first, 2 * (count + 1) * ring.stride, 0.0F);
-        std::size_t differences[kMostDifferences], block = part.run, torn = 0;
-        std::copy_n(pattern.differences, count, differences);
-        F8 fx, fy;
-        for (std::size_t from = part.first; from < part.end; from += kPortion) {
-            const std::size_t to = std::min(part.end, from + kPortion);
-            pull<kCount>(blocks, pattern, differences, planes, ring, from, to, block, torn);
-            if (from >= part.first + part.head) {
-                moveOn<kCount>(differences, count, ring, move, from, to);
-                continue;
-            }
-            for (std::size_t node = from; node < to; node += kLanes) {
-                gather<kCount>(differences, count, ring, node, fx, fy);
-                float* const held = part.held + (node - part.first);
-                V::store(held, fx), V::store(held + room, fy);
-            }
-        }
-        if (!part.spilt) return torn;
-        for (std::size_t node = part.end; node < part.end + room; node += kLanes) {
-            for (std::size_t k = 0; k < 2 * (count + 1); ++k) V::store(ring.at(k, node), V::zero());
-            ring.repeat(2 * (count + 1), node);
-            gather<kCount>(differences, count, ring, node, fx, fy);
-            float* const spilt = part.spilt + (node - part.end);
-            V::store(spilt, fx), V::store(spilt + room, fy);
-        }
-        return torn;
+        Passage<kCount> passage(blocks, pattern, step, planes, ring, part);
+        passage.go();
+        return passage.torn;
     }
 
     static std::size_t fly(const SpringBlocks& blocks, const FlightPattern& pattern, const FlightStep& step,
@@ -242,7 +313,7 @@ struct FlightSet {
 
     static void flyHead(const FlightStep& step, const FlightPlanes& planes, const Stretch& part, const float* spilt)
     {
-        const Mover move(step, planes);
+        const Mover<V> move(step, planes);
         for (std::size_t k = 0; k < part.head; k += kLanes) {
             const float* const held = part.held + k;
             move(part.first + k, V::add(V::load(held), V::load(spilt + k)),
@@ -255,10 +326,10 @@ struct FlightSet {
     {
         F8 far = V::zero(), fast = V::zero(), all = V::zero();
         for (std::size_t node = first; node < end; node += kLanes) {
-            const float* const own = planes.rows + node / kLanes * kFlightRow;
+            const float* const own = planes.row(node);
             const float* const vx = planes.first + 2 * planes.stride + node;
-            const F8 speed = squares(V::load(vx), V::load(vx + planes.stride));
-            far = V::most(far, squares(V::load(own + 2 * kLanes), V::load(own + 3 * kLanes)));
+            const F8 speed = squares<V>(V::load(vx), V::load(vx + planes.stride));
+            far = V::most(far, squares<V>(V::load(own + 2 * kFlightLanes), V::load(own + 3 * kFlightLanes)));
             fast = V::most(fast, speed);
             all = V::add(all, speed);  // the greatest forgets what is not a number
         }
@@ -275,7 +346,11 @@ struct FlightSet {
         return found;
     }
 
-    static F8 squares(F8 x, F8 y) { return V::add(V::mul(x, x), V::mul(y, y)); }
+    template <class L>
+    static typename L::F squares(typename L::F x, typename L::F y)
+    {
+        return L::add(L::mul(x, x), L::mul(y, y));
+    }
 
     /// Sums over nodes, those of every eighth node together.
     static void sum(const NodeArrays& nodes, const double* mass, const FlightPlanes& planes, std::size_t first,
@@ -284,9 +359,9 @@ struct FlightSet {
         double sums[6][kLanes]{};
         for (std::size_t node = first; node < end; ++node) {
             const std::size_t k = node % kLanes;
-            const float* const own = planes.rows + node / kLanes * kFlightRow + k;
+            const float* const own = planes.row(node);
             const double m = mass[node];
-            for (std::size_t of = 0; of < 4; ++of) sums[of][k] += m * static_cast<double>(own[of * kLanes]);
+            for (std::size_t of = 0; of < 4; ++of) sums[of][k] += m * static_cast<double>(own[of * kFlightLanes]);
             for (std::size_t of = 0; of < 2; ++of) sums[4 + of][k] += m * nodes.velocity[2 * node + of];
         }
         double totals[6]{};
@@ -302,16 +377,16 @@ struct FlightSet {
         const typename V::Landing settle(t, back);
         std::size_t node = first;
         for (; node + 4 <= end; node += 4) {
-            const float* const own = planes.rows + node / kLanes * kFlightRow + node % kLanes;
-            const __m128 dx = _mm_loadu_ps(own), dy = _mm_loadu_ps(own + kLanes);
-            const __m128 hx = _mm_loadu_ps(own + 2 * kLanes), hy = _mm_loadu_ps(own + 3 * kLanes);
+            const float* const own = planes.row(node);
+            const __m128 dx = _mm_loadu_ps(own), dy = _mm_loadu_ps(own + kFlightLanes);
+            const __m128 hx = _mm_loadu_ps(own + 2 * kFlightLanes), hy = _mm_loadu_ps(own + 3 * kFlightLanes);
             settle(position + 2 * node, velocity + 2 * node, _mm_unpacklo_ps(dx, dy), _mm_unpacklo_ps(hx, hy));
             settle(position + 2 * node + 4, velocity + 2 * node + 4, _mm_unpackhi_ps(dx, dy), _mm_unpackhi_ps(hx, hy));
         }
         for (; node < end; ++node) {
-            const float* const own = planes.rows + node / kLanes * kFlightRow + node % kLanes;
-            settle.one(position + 2 * node, velocity + 2 * node, Springs::widened(own, own + kLanes),
-                       Springs::widened(own + 2 * kLanes, own + 3 * kLanes));
+            const float* const own = planes.row(node);
+            settle.one(position + 2 * node, velocity + 2 * node, Springs::widened(own, own + kFlightLanes),
+                       Springs::widened(own + 2 * kFlightLanes, own + 3 * kFlightLanes));
         }
     }
 

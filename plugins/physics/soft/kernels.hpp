@@ -1,6 +1,7 @@
 // The inner loops of soft bodies: 8 springs at a time, with the instructions the processor has.
 //
-// Every kernel exists for SSE2 (each x86-64 has it) and AVX2, chosen at run time, and gives the same bits with both:
+// Every kernel exists for SSE2 (each x86-64 has it) and AVX2, flights for AVX-512, too. They are chosen at run time and
+// give the same bits:
 // only operations that IEEE 754 rounds exactly (+ - * / and square root), the same lanes, the same order of sums. No
 // fused multiply-add, no reciprocal estimates: those differ between processors.
 //
@@ -15,6 +16,10 @@
 
 #include <cstddef>
 #include <cstdint>
+
+namespace jet {
+enum class Simd : std::uint8_t;  // physics.hpp, whose code must not be compiled for some processors only
+}
 
 namespace jet::physics::soft {
 
@@ -145,8 +150,12 @@ struct Kernels {
 
 const Kernels& kernelsSse2();
 const Kernels& kernelsAvx2();
+const Kernels& kernelsAvx512();
 /// Does this processor have AVX2?
 bool hasAvx2();
-const Kernels& bestKernels();
+/// And AVX-512, of a kind that does not slow the rest down: since Ice Lake and Zen 4?
+bool hasAvx512();
+/// Automatic: the widest this processor has; Avx2: no wider than that.
+const Kernels& kernelsFor(Simd);
 
 }  // namespace jet::physics::soft

@@ -2,6 +2,8 @@
 #include "flight_body.hpp"
 #include "kernels_body.hpp"
 
+#include <jet/physics.hpp>
+
 namespace jet::physics::soft {
 namespace {
 
@@ -30,6 +32,20 @@ struct Sse2 {
     {
         return _mm_movemask_ps(_mm_or_ps(_mm_cmpgt_ps(a.low, b.low), _mm_cmpgt_ps(a.high, b.high))) != 0;
     }
+
+    // For flights: see FlightSet.
+    using F = F8;
+    static constexpr std::size_t kRows = 1;
+    template <class Of>
+    static F rows(Of&& of)
+    {
+        return load(of(0));
+    }
+    using Mask = F8;
+    static Mask none() { return zero(); }
+    static Mask above(F8 a, F8 b) { return {_mm_cmpgt_ps(a.low, b.low), _mm_cmpgt_ps(a.high, b.high)}; }
+    static Mask either(Mask a, Mask b) { return {_mm_or_ps(a.low, b.low), _mm_or_ps(a.high, b.high)}; }
+    static bool any(Mask a) { return _mm_movemask_ps(_mm_or_ps(a.low, a.high)) != 0; }
 
     /// of(k): four numbers of lane k.
     template <class Of>
@@ -108,6 +124,17 @@ bool hasAvx2()
     return has;
 }
 
-const Kernels& bestKernels() { return hasAvx2() ? kernelsAvx2() : kernelsSse2(); }
+bool hasAvx512()
+{
+    static const bool has = hasAvx2() && __builtin_cpu_supports("avx512dq") != 0 &&
+                            __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("avx512vbmi2") != 0;
+    return has;
+}
+
+const Kernels& kernelsFor(Simd simd)
+{
+    if (simd == Simd::Automatic && hasAvx512()) return kernelsAvx512();
+    return simd != Simd::Sse2 && hasAvx2() ? kernelsAvx2() : kernelsSse2();
+}
 
 }  // namespace jet::physics::soft

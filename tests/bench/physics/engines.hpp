@@ -27,12 +27,14 @@ public:
 
 struct JetOptions {
     int threads = 1;
-    std::string simd;       // "", "sse2" or "avx2"
+    std::string simd;       // "", "sse2", "avx2" or "avx512"
     std::string precision;  // "", "double" or "single"
     int substeps = 0;
 };
 
 std::unique_ptr<Engine> makeJet(const Scene&, const JetOptions&);
+/// Instructions JET has kernels for and this processor, too, the widest first.
+std::vector<std::string> jetSimds();
 std::unique_ptr<Engine> makeBox2d(const Scene&);
 std::unique_ptr<Engine> makeChipmunk(const Scene&);
 /// For scenes of soft bodies between fixed boxes.

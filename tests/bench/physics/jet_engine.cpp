@@ -2,6 +2,7 @@
 #include "bench/physics/engines.hpp"
 
 #include "engine.hpp"
+#include "soft/kernels.hpp"
 
 #include <cmath>
 #include <map>
@@ -12,6 +13,11 @@ namespace {
 
 Vec2 vec(const Point& p) { return {p.x, p.y}; }
 
+Simd simdOf(const std::string& name)
+{
+    return name == "avx2" ? Simd::Avx2 : name == "sse2" ? Simd::Sse2 : Simd::Automatic;
+}
+
 class JetEngine final : public Engine {
 public:
     JetEngine(const Scene& scene, const JetOptions& options) : scene_(scene)
@@ -21,7 +27,7 @@ public:
         settings.threads = options.threads;
         settings.substeps = options.substeps;
         settings.allowSleep = false;
-        if (!options.simd.empty()) settings.simd = options.simd == "avx2" ? Simd::Avx2 : Simd::Sse2;
+        settings.simd = simdOf(options.simd);
         if (!options.precision.empty())
             settings.precision = options.precision == "double" ? Precision::Double : Precision::Single;
         // Material 1 collides with nothing.
@@ -136,6 +142,15 @@ private:
 std::unique_ptr<Engine> makeJet(const Scene& scene, const JetOptions& options)
 {
     return std::make_unique<JetEngine>(scene, options);
+}
+
+std::vector<std::string> jetSimds()
+{
+    std::vector<std::string> all;
+    if (physics::soft::hasAvx512()) all.emplace_back("avx512");
+    if (physics::soft::hasAvx2()) all.emplace_back("avx2");
+    all.emplace_back("sse2");
+    return all;
 }
 
 }  // namespace jet::bench

@@ -20,7 +20,7 @@ struct Options {
     std::string check, summary;
 };
 
-const char* widestSimd() { return __builtin_cpu_supports("avx2") > 0 ? "avx2" : "sse2"; }
+std::string widestSimd() { return jetSimds().front(); }
 
 std::string processor()
 {
@@ -46,7 +46,8 @@ std::vector<Entry> entries(const Scene& scene, const Options& options)
     };
     const std::string first = options.jet.simd.empty() ? widestSimd() : options.jet.simd;
     jet("jet", first);
-    if (options.jet.simd.empty() && first != "sse2") jet("jet_sse2", "sse2");
+    for (const std::string& simd : jetSimds())
+        if (options.jet.simd.empty() && simd != first) jet("jet_" + simd, simd);
     all.push_back({"box2d_241", "box2d 2.4.1", [&] { return makeBox2d(scene); }});
     all.push_back({"chipmunk", "chipmunk 7", [&] { return makeChipmunk(scene); }});
     if (!scene.soft.empty()) all.push_back({"bullet", "bullet 3.24", [&] { return makeBullet(scene); }});
@@ -136,14 +137,14 @@ void declare(CLI::App& app, Options& options)
     app.add_option("--scene-file", options.files, "A scene from a file; may repeat")->check(CLI::ExistingFile);
     app.add_option("--threads", options.jet.threads, "Of JET")->check(CLI::Range(1, 64))->capture_default_str();
     app.add_option("--simd", options.jet.simd,
-                   "JET with these instructions alone (else: the widest, and sse2 beside it)")
-        ->check(CLI::IsMember({"sse2", "avx2"}));
+                   "JET with these instructions alone (else: all that the processor has, the widest first)")
+        ->check(CLI::IsMember(jetSimds()));
     app.add_option("--precision", options.jet.precision, "Of JET's rigid solver")
         ->check(CLI::IsMember({"double", "single"}));
     app.add_option("--substeps", options.jet.substeps, "Of JET's rigid solver; 0: its own choice")
         ->check(CLI::Range(0, 4096));
     app.add_option("--only", options.only, "Only this engine; may repeat")
-        ->check(CLI::IsMember({"jet", "jet_sse2", "box2d_241", "chipmunk", "bullet"}));
+        ->check(CLI::IsMember({"jet", "jet_avx2", "jet_sse2", "box2d_241", "chipmunk", "bullet"}));
     app.add_option("--check", options.check, "Compare the scenes with the files of this folder, measure nothing")
         ->check(CLI::ExistingDirectory);
     app.add_option("--summary-json", options.summary, "Write all of it to this file");
@@ -159,7 +160,7 @@ int run(Options& options)
     nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
     bool fine = true;
     std::printf("%s, %u threads; JET: %s, %d thread%s\n", processor().c_str(), std::thread::hardware_concurrency(),
-                options.jet.simd.empty() ? widestSimd() : options.jet.simd.c_str(), options.jet.threads,
+                (options.jet.simd.empty() ? widestSimd() : options.jet.simd).c_str(), options.jet.threads,
                 options.jet.threads == 1 ? "" : "s");
     for (const std::string& name : options.scenes) fine = compare(makeScene(name), options, scenes) && fine;
     for (const std::string& file : options.files) fine = compare(loadScene(file), options, scenes) && fine;

@@ -195,13 +195,14 @@ TEST(SoftKernels, ALargeBodyInPartsIsPulledAsWholeAndTearsWhereItDid)
                                            kinds.data(),       tear.data(),
                                            own.data(),         0.001F,
                                            blocks.reach};
-                const Swing swing =
-                    bestKernels().swing(springs, nodes, {now.position[0], 2, 1, 2}, step, room.view(), parts[k]);
+                const Swing swing = kernelsFor(Simd::Automatic)
+                                        .swing(springs, nodes, {now.position[0], 2, 1, 2}, step, room.view(), parts[k]);
                 torn.insert(torn.end(), own.begin(), own.begin() + static_cast<std::ptrdiff_t>(swing.torn));
                 all.x += swing.x, all.y += swing.y;
             }
             for (std::size_t k = 1; k < parts.size(); ++k) {
-                const Swing swing = bestKernels().join(nodes, step, room.view(), parts[k], spilt[k - 1].data());
+                const Swing swing =
+                    kernelsFor(Simd::Automatic).join(nodes, step, room.view(), parts[k], spilt[k - 1].data());
                 all.x += swing.x, all.y += swing.y;
             }
             std::sort(torn.begin(), torn.end());
