@@ -1,6 +1,5 @@
 #include "stage.hpp"
 
-#include "drawn.hpp"
 #include "room.hpp"
 #include "speed_limit.hpp"
 #include "validation.hpp"
@@ -48,10 +47,10 @@ DrawnAs drawnAs(const BodyCommon& common)
 }
 
 /// About the centre of mass.
-std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Vec2& centre, double length)
+std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Drawing& drawing, const Vec2& centre, double length)
 {
     std::vector<DrawnPart> parts;
-    if (!def.borders.empty()) parts = drawnParts(def.borders, centre, length, drawnAs(def.common));
+    if (!def.borders.empty()) parts = drawnParts(drawing, centre, length);
     for (const ShapeDef& shape : def.shapes) {
         if (shape.kind == ShapeDef::Kind::Chain) {
             for (DrawnPart& part : chainParts(shape.points, centre, length)) parts.push_back(std::move(part));
@@ -67,7 +66,12 @@ std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Vec2& centre, doub
 
 }  // namespace
 
-bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, double gyration)
+Drawing RigidStage::takeApart(const RigidBodyDef& def)
+{
+    return def.borders.empty() ? Drawing() : physics::takeApart(def.borders, drawnAs(def.common));
+}
+
+bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, const Drawing& drawing, double gyration)
 {
     const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
@@ -76,7 +80,7 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, 
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
     body.gyration = gyration;
-    const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
+    const std::vector<DrawnPart> drawn = partsOf(def, drawing, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
     const Index index = collider_.addBody(body, Rules(def.common));
     keepBodyOf(handle, index);
