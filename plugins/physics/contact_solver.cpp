@@ -216,6 +216,7 @@ void ContactSolver::solveWith(ContactPoint& c, Pass pass, Relative&& relative, A
         impulseScale = soft.impulseScale;
     }
     const double normalSpeed = relative().dot(c.normal);
+    if (!std::isfinite(normalSpeed)) return;  // what runs away is stopped when it is moved, and takes none along
     const double wanted = -c.normalMass * massScale * (normalSpeed + bias) - impulseScale * c.normalImpulse;
     const double normalImpulse = std::max(c.normalImpulse + wanted, 0.0);
     act((normalImpulse - c.normalImpulse) * c.normal);
