@@ -264,12 +264,16 @@ void PhysicsChecks::check(std::string_view item, const ShapeDef& shape, bool fix
                 std::string(item) +
                 ": a chain has no inside, so only a fixed body may have one; draw a closed border for one that moves.");
         if (count < 2) points("a chain has 2 points or more");
+        if (!(sizeOf(std::span(&shape.points, 1)) >= kLeastSize))
+            fail(std::string(item) + ": the points of its chain are all at one place; a chain needs two different ones.");
         return;
     case ShapeDef::Kind::Circle:
     case ShapeDef::Kind::Capsule:
         if (count != (shape.kind == ShapeDef::Kind::Circle ? 1U : 2U)) points("a circle has one point, a capsule two");
         above(item, "the radius of its shape", shape.radius, 0);
         atLeast(item, "the radius of its shape", shape.radius, kLeastSize);
+        if (count == 2 && !((shape.points[1] - shape.points[0]).norm() > kSamePlace * shape.radius))
+            fail(std::string(item) + ": both points of its capsule are at one place; use a circle instead.");
         return;
     }
     fail(std::string(item) + ": its kind of shape is none that there is.");

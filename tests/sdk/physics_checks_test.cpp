@@ -71,6 +71,16 @@ TEST(PhysicsChecks, PolygonsEncloseAnAreaAreConvexAndHaveEachPointOnce)
     EXPECT_EQ(polygonRefusal({{0, -5}, {3, 4}, {-5, -2}, {5, -2}, {-3, 4}}), hollow) << "turns one way, but twice";
 }
 
+TEST(PhysicsChecks, ChainsAndCapsulesHaveALength)
+{
+    const auto refusal = [](ShapeDef shape) { return refusalOf([&] { kChecks.check("body 1", shape, true); }); };
+    EXPECT_EQ(refusal({ShapeDef::Kind::Capsule, {{1, 1}, {1, 1}}, 2}),
+              "Toy: body 1: both points of its capsule are at one place; use a circle instead.");
+    EXPECT_EQ(refusal({ShapeDef::Kind::Chain, {{1, 1}, {1, 1}, {1, 1}}, 0}),
+              "Toy: body 1: the points of its chain are all at one place; a chain needs two different ones.");
+    EXPECT_EQ(refusal({ShapeDef::Kind::Chain, {{1, 1}, {1, 1}, {2, 1}}, 0}), "");
+}
+
 TEST(PhysicsChecks, WhatWouldBeLostInSquaresAndQuotientsIsRefused)
 {
     EXPECT_EQ(refusalOf([] { kChecks.checkMass(3, 1e-320); }), "Toy: body 3: mass is " + numberText(1e-320) +
