@@ -11,9 +11,9 @@ namespace jet::box2d {
 
 namespace {
 
-constexpr std::size_t kMostCorners = 8;  // b2_maxPolygonVertices
+constexpr std::size_t kMostCorners = 8;        // b2_maxPolygonVertices
 constexpr std::size_t kMostTrapezoids = 3000;  // joining neighbours takes time by their square
-constexpr double kThin = 0.06;           // scene units: Box2D takes points nearer than 0.025 for one
+constexpr double kThin = 0.06;                 // scene units: Box2D takes points nearer than 0.025 for one
 
 struct Side {
     Vec2 top, bottom;

@@ -265,7 +265,8 @@ void PhysicsChecks::check(std::string_view item, const ShapeDef& shape, bool fix
                 ": a chain has no inside, so only a fixed body may have one; draw a closed border for one that moves.");
         if (count < 2) points("a chain has 2 points or more");
         if (!(sizeOf(std::span(&shape.points, 1)) >= kLeastSize))
-            fail(std::string(item) + ": the points of its chain are all at one place; a chain needs two different ones.");
+            fail(std::string(item) +
+                 ": the points of its chain are all at one place; a chain needs two different ones.");
         return;
     case ShapeDef::Kind::Circle:
     case ShapeDef::Kind::Capsule:

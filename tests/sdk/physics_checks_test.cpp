@@ -83,8 +83,8 @@ TEST(PhysicsChecks, ChainsAndCapsulesHaveALength)
 
 TEST(PhysicsChecks, WhatWouldBeLostInSquaresAndQuotientsIsRefused)
 {
-    EXPECT_EQ(refusalOf([] { kChecks.checkMass(3, 1e-320); }), "Toy: body 3: mass is " + numberText(1e-320) +
-                                                                  "; it must be " + numberText(1e-6) + " or more.");
+    EXPECT_EQ(refusalOf([] { kChecks.checkMass(3, 1e-320); }),
+              "Toy: body 3: mass is " + numberText(1e-320) + "; it must be " + numberText(1e-6) + " or more.");
     RigidBodyDef rigid;
     rigid.borders = {{{0, 0}, {1e-150, 0}, {0, 1e-150}}};
     EXPECT_THAT(refusalOf([&] { kChecks.check(2, rigid, 1); }), testing::StartsWith("Toy: body 2: its size is "));

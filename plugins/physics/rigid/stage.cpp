@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kSmallWorld = 512;  // bodies: worlds up to here are solved in double precision
 constexpr double kContactRate = 480;      // substeps a second of small worlds
 constexpr int kLargeSubsteps = 4;
+// Units / s²: far beyond what speed_limit.hpp leaves of it, and its square still a number in single precision.
+constexpr double kMostAcceleration = 1e15;
 constexpr float kHitSmall = 0.08F,
                 kHitLarge = 0.6F;  // lengths a substep that make a hit
 constexpr int kHitPasses = 12;
@@ -286,9 +288,12 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         force = BodyPush<Real>();
         if (!body.moves || body.asleep) return;
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
-        const Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
+        Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
+        if (!(pull.squaredNorm() <= kMostAcceleration * kMostAcceleration)) pull *= kMostAcceleration / pull.norm();
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
-        force.accelerationW = static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
+        force.accelerationW =
+            static_cast<Real>(std::clamp(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node],
+                                         -kMostAcceleration, kMostAcceleration));
     });
     startJoints(solver, state);
     solver.prepare(passesFor(solver.hardestHit(), large, shape.h));

@@ -29,13 +29,25 @@ public:
 
 private:
     static constexpr const char* kOdd[] = {
-        "nan",  "inf",    "-inf",   "abc",   "",     "true", "99999999999999999999999", "4294967296",
-        "-1",   "0",      "-0",     "1e308", "1e300", "-1e308", "1e-320", "1e-12", "1e12", "-1e12", "1e31", "1e7"};
-    static constexpr const char* kProperties[][2] = {
-        {"velocity", "1e30 -1e30"}, {"omega", "1e30"},       {"gravity-scale", "-1e30"}, {"one-sided", "1e-300 0"},
-        {"layer", "4294967296"},    {"material", "none"},    {"ks", "1e9"},              {"mass", "0"},
-        {"cell-size", "1e-6 1e-6"}, {"most-flow", "0.95"},   {"axis", "0 0"},            {"hertz", "1e4"},
-        {"length", "1e9"},          {"break-force", "1e-9"}, {"kind", "gear"},           {"reach", "-1"}};
+        "nan",        "inf",   "-inf", "abc",   "",      "true",  "99999999999999999999999",
+        "4294967296", "-1",    "0",    "-0",    "1e308", "1e300", "-1e308",
+        "1e-320",     "1e-12", "1e12", "-1e12", "1e31",  "1e7"};
+    static constexpr const char* kProperties[][2] = {{"velocity", "1e30 -1e30"},
+                                                     {"omega", "1e30"},
+                                                     {"gravity-scale", "-1e30"},
+                                                     {"one-sided", "1e-300 0"},
+                                                     {"layer", "4294967296"},
+                                                     {"material", "none"},
+                                                     {"ks", "1e9"},
+                                                     {"mass", "0"},
+                                                     {"cell-size", "1e-6 1e-6"},
+                                                     {"most-flow", "0.95"},
+                                                     {"axis", "0 0"},
+                                                     {"hertz", "1e4"},
+                                                     {"length", "1e9"},
+                                                     {"break-force", "1e-9"},
+                                                     {"kind", "gear"},
+                                                     {"reach", "-1"}};
 
     void mutate(std::string& text)
     {
@@ -115,7 +127,7 @@ protected:
 
 TEST_F(HostileProjectTest, MutatedProjectsAreRefusedWithAReasonOrPlayInNumbers)
 {
-    const std::string examples[] = {"breaking", "car",    "composite",  "fields",     "gas",  "joints",
+    const std::string examples[] = {"breaking", "car",     "composite", "fields",     "gas",   "joints",
                                     "motors",   "plastic", "platform",  "soft-rigid", "stack", "tearing"};
     int played = 0, refused = 0;
     for (std::uint64_t seed = 0; seed < 120; ++seed) {

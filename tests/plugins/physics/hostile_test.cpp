@@ -117,12 +117,35 @@ TEST(Hostile, OfSeveralBodiesThatExplodeAtOnceNoneKeepsWhatIsNoNumber)
     }
     for (int i = 0; i < 60; ++i) {
         const std::string told = refusalOf([&] { world->step(kStep); });
-        if (i == 0) { EXPECT_TRUE(contains(told, "body 0 explodes")) << told; }
+        if (i == 0) {
+            EXPECT_TRUE(contains(told, "body 0 explodes")) << told;
+        }
         for (BodyHandle body = 0; body < 3; ++body) {
             world->setOmega(body, 0.1);
             EXPECT_TRUE(isFinite(world->bodies().velocity[body]) && std::isfinite(world->bodies().omega[body]))
                 << "body " << body << " after step " << i;
         }
+    }
+}
+
+/// What is joined in single precision bears forces that are numbers, however hard the bodies are pushed.
+TEST(Hostile, AnAbsurdFieldMakesNoForceOfAJointThatIsNoNumber)
+{
+    WorldSettings settings;
+    settings.precision = Precision::Single;
+    auto world = JetPhysics().createWorld(settings);
+    world->addRigidBody(simple(box({0, 0}, 10, 10)));
+    JointDef weld;
+    weld.kind = JointDef::Kind::Weld;
+    weld.a = {0, {3, 4}}, weld.b.point = {-80, 130}, weld.hertz = 5, weld.dampingRatio = 0.5;
+    world->addJoint(weld);
+    ForceFieldDef field;
+    field.vector = {0, 1e29};
+    world->addForceField(field);
+    for (int i = 0; i < 10; ++i) {
+        world->step(kStep);
+        ASSERT_TRUE(isFinite(world->joint(0).force) && std::isfinite(world->joint(0).torque))
+            << "step " << i << ": " << world->joint(0).force.transpose() << ", " << world->joint(0).torque;
     }
 }
 
@@ -171,9 +194,10 @@ private:
     double number(double usual)
     {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
-        constexpr double kOdd[] = {0,    -0.0, -1,   1e-12, 1e-30, 1e-150, 1e-300, 5e-324, 1e6,  1e9,   1e12,
-                                   1e15, 1e20, 1e29, 1e30,  -1e30, -1e12,  1e31,   1e308,  -1e9, -1e308, kInfinity,
-                                   -kInfinity, std::numeric_limits<double>::quiet_NaN()};
+        constexpr double kOdd[] = {
+            0,     -0.0, -1,    1e-12, 1e-30,  1e-150,    1e-300,     5e-324,
+            1e6,   1e9,  1e12,  1e15,  1e20,   1e29,      1e30,       -1e30,
+            -1e12, 1e31, 1e308, -1e9,  -1e308, kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN()};
         const std::uint64_t which = below(24);
         if (which == 0) return kOdd[below(std::size(kOdd))];
         return which == 1 ? usual * std::pow(10, real(-14, 14)) : usual;
@@ -188,10 +212,10 @@ private:
         const std::uint64_t kind = below(10);
         std::vector<Vec2> points = circleRing(at, size, static_cast<int>(3 + below(7)));
         for (Vec2& p : points) {
-            if (kind == 0) p.y() = at.y();                                             // flat
-            if (kind == 1) p = at;                                                     // a point
-            if (kind == 2) p = at + Vec2(real(-size, size), real(-size, size));        // crosses itself
-            if (kind == 3 && below(3) == 0) p = points[below(points.size())];          // comes back
+            if (kind == 0) p.y() = at.y();                                       // flat
+            if (kind == 1) p = at;                                               // a point
+            if (kind == 2) p = at + Vec2(real(-size, size), real(-size, size));  // crosses itself
+            if (kind == 3 && below(3) == 0) p = points[below(points.size())];    // comes back
             if (kind == 4 && below(3) == 0) p = vector(p.x(), p.y());
         }
         if (kind == 5) points.resize(below(3));
@@ -278,7 +302,9 @@ private:
         case 11: return world_->applyForce(body, vector(100, 10));
         case 12: {
             const auto hit = world_->rayCast(vector(-100, 0), vector(100, 10));
-            if (hit) { EXPECT_TRUE(isFinite(hit->point) && isFinite(hit->normal)); }
+            if (hit) {
+                EXPECT_TRUE(isFinite(hit->point) && isFinite(hit->normal));
+            }
             return;
         }
         default: world_->restore(world_->save());
