@@ -143,6 +143,12 @@ void Solver<Real>::tellJoints(std::vector<Joint>& joints)
             joint.state.force += static_cast<double>(row.impulse) / jointsH_ * Vec2(row.bx, row.by);
             if (row.bx == 0 && row.by == 0) joint.state.torque += row.torqueOfB() / jointsH_;
         }
+    for (const auto& rowed : rowed_)
+        for (const Rowed& each : rowed) {
+            jet::JointState& told = joints[each.joint].state;
+            if (!isFinite(told.force)) told.force = Vec2(0, 0);
+            if (!std::isfinite(told.torque)) told.torque = 0;
+        }
 }
 
 template <class Real>
