@@ -83,8 +83,6 @@ private:
     bool any_ = false;
 };
 
-constexpr std::size_t kMostCorners = 10'000;  // crossings are sought by their square
-
 bool isThick(const Ring& ring) { return !convexParts({ring}).empty(); }
 
 void addShape(Fixtures& fixtures, const ShapeDef& shape)
@@ -110,11 +108,6 @@ void addShape(Fixtures& fixtures, const ShapeDef& shape)
 
 void addFixtures(b2Body& body, const RigidBodyDef& def, const Vec2& centre)
 {
-    std::size_t corners = 0;
-    for (const Ring& ring : def.borders) corners += ring.size();
-    if (corners > kMostCorners)
-        fail("the body's outline has " + std::to_string(corners) + " corners, more than " +
-             std::to_string(kMostCorners) + "; draw it with fewer.");
     Fixtures fixtures(body, def, centre);
     if (!def.shapes.empty()) {
         for (const ShapeDef& shape : def.shapes) addShape(fixtures, shape);
