@@ -3,14 +3,17 @@
 // idea).
 #include "convex_parts.hpp"
 
+#include "validation.hpp"
+
 #include <optional>
 
 namespace jet::box2d {
 
 namespace {
 
-constexpr std::size_t kMostCorners = 8;  // b2_maxPolygonVertices
-constexpr double kThin = 0.06;           // scene units: Box2D takes points nearer than 0.025 for one
+constexpr std::size_t kMostCorners = 8;        // b2_maxPolygonVertices
+constexpr std::size_t kMostTrapezoids = 3000;  // joining neighbours takes time by their square
+constexpr double kThin = 0.06;                 // scene units: Box2D takes points nearer than 0.025 for one
 
 struct Side {
     Vec2 top, bottom;
@@ -183,8 +186,11 @@ std::vector<Ring> convexParts(const Rings& rings)
         addFan(parts, simplified(rings[0]));
     } else {
         const std::vector<Side> sides = sidesOf(rings);
-        for (const Trapezoid& t : trapezoidsOf(sides, levelsOf(rings, sides, sidesCross(rings))))
-            parts.push_back(ringOf(t, sides));
+        const std::vector<Trapezoid> trapezoids = trapezoidsOf(sides, levelsOf(rings, sides, sidesCross(rings)));
+        if (trapezoids.size() > kMostTrapezoids)
+            fail("the body's outline is too intricate: it comes to more than " + std::to_string(kMostTrapezoids) +
+                 " trapezoids, which takes too long to put together; draw it with fewer corners and crossings.");
+        for (const Trapezoid& t : trapezoids) parts.push_back(ringOf(t, sides));
         joinNeighbours(parts);
     }
     std::erase_if(parts, [](const Ring& part) { return !isThick(part); });

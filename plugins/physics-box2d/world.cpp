@@ -99,6 +99,12 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
 {
     checks().check(static_cast<BodyHandle>(bodyCount()), def, settings_.materialCount);
     if (def.shapes.empty() && def.borders.empty()) fail(named("body", bodyCount()) + " needs borders or shapes.");
+    std::size_t corners = 0;
+    for (const auto& border : def.borders) corners += border.size();
+    constexpr std::size_t kMostCorners = 10'000;  // crossings and holes are sought by their square
+    if (corners > kMostCorners)
+        fail(named("body", bodyCount()) + ": its outline has " + std::to_string(corners) + " corners, more than " +
+             std::to_string(kMostCorners) + "; draw it with fewer.");
     doesSpecial([def](Stage& stage) { stage.add(def); });
     return static_cast<BodyHandle>(bodyCount() - 1);
 }

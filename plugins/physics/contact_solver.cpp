@@ -4,6 +4,8 @@ namespace jet::physics {
 
 namespace {
 
+// Units / s: what runs away, or is not a number, is stopped when it is moved, and takes nothing along before.
+constexpr double kAbsurdSpeed = 1e30, kAbsurdImpulse = 1e80;
 constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;
 constexpr double kPushLengthsPerSecond = 4;  // overlaps are pushed out no faster than this many body lengths a second
 constexpr double kSharpInset = 2, kBluntOverhang = 2;  // in slops
@@ -55,6 +57,8 @@ Vec2 ContactSolver::relativeVelocity(const ContactPoint& c) const
 
 void ContactSolver::applyImpulse(const ContactPoint& c, const Vec2& impulse)
 {
+    // Not even what is fixed would stay a number.
+    if (!(std::abs(impulse.x()) + std::abs(impulse.y()) < kAbsurdImpulse)) return;
     if (c.lone) {
         state_.nodes.velocity[c.nodeA] += state_.nodes.invMass[c.nodeA] * impulse;
         return;
@@ -216,6 +220,7 @@ void ContactSolver::solveWith(ContactPoint& c, Pass pass, Relative&& relative, A
         impulseScale = soft.impulseScale;
     }
     const double normalSpeed = relative().dot(c.normal);
+    if (!(std::abs(normalSpeed) < kAbsurdSpeed)) return;
     const double wanted = -c.normalMass * massScale * (normalSpeed + bias) - impulseScale * c.normalImpulse;
     const double normalImpulse = std::max(c.normalImpulse + wanted, 0.0);
     act((normalImpulse - c.normalImpulse) * c.normal);
@@ -224,6 +229,7 @@ void ContactSolver::solveWith(ContactPoint& c, Pass pass, Relative&& relative, A
     const Vec2 tangent = perpendicular(c.normal);
     const double most = c.friction * c.normalImpulse;
     const double slide = relative().dot(tangent);
+    if (!(std::abs(slide) < kAbsurdSpeed)) return;
     const double tangentImpulse = std::clamp(c.tangentImpulse - c.tangentMass * slide, -most, most);
     act((tangentImpulse - c.tangentImpulse) * tangent);
     c.tangentImpulse = tangentImpulse;
@@ -270,6 +276,7 @@ void ContactSolver::restitute()
         each([&](ContactPoint& c) {
             if (!bounces(c)) return;
             const double missing = relativeVelocity(c).dot(c.normal) + c.restitution * c.approachSpeed;
+            if (!(std::abs(missing) < kAbsurdSpeed)) return;
             const double impulse = std::max(c.normalImpulse - c.normalMass * missing, 0.0);
             applyImpulse(c, (impulse - c.normalImpulse) * c.normal);
             c.stepImpulse += impulse - c.normalImpulse;

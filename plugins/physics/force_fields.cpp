@@ -35,7 +35,7 @@ double dragOver(double rate, double h) { return (1 - decay(rate * h)) / h; }
 
 ForceFields::Field::Field(const ForceFieldDef& is) : def(is), region(gridOver(is.region))
 {
-    const Pieces whole = decompose(def.region);
+    const Pieces whole = decompose(is.region);
     for (const auto& each : whole.pieces) {
         Piece& piece = pieces.emplace_back();
         for (const std::uint32_t corner : each.corners) {
@@ -45,9 +45,18 @@ ForceFields::Field::Field(const ForceFieldDef& is) : def(is), region(gridOver(is
     }
 }
 
+ForceFields::Field ForceFields::made(Index handle, const ForceFieldDef& def)
+{
+    try {
+        return Field(def);
+    } catch (const Failure& failure) {
+        checks().fail(named("force field", handle) + ": its region " + failure.error().message);
+    }
+}
+
 Index ForceFields::add(const ForceFieldDef& def)
 {
-    fields_.emplace_back(def);
+    fields_.push_back(made(count(), def));
     return count() - 1;
 }
 
@@ -57,7 +66,7 @@ void ForceFields::set(Index field, const ForceFieldDef& def)
         checks().fail(
             named("force field", field) +
             ": its kind cannot change while the world runs; add another field, and give this one no strength.");
-    fields_[field] = Field(def);
+    fields_[field] = made(field, def);
 }
 
 bool ForceFields::isSet(Index field, const ForceFieldDef& def) const

@@ -58,6 +58,7 @@ private:
         bool covers(const Vec2& at) const { return def.region.empty() || region.inside(at); }
         Vec2 acceleration(const Vec2& at, const Vec2& velocity, const Vec2& weight, double h) const;
     };
+    static Field made(Index handle, const ForceFieldDef&);
     struct Pull;
     static void act(State&, const RigidStage&, const Field&, Index body, const Vec2& weight, double h);
     static void actOnSurface(Pull&, std::span<const Part>);

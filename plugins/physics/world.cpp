@@ -73,6 +73,15 @@ std::vector<std::vector<Vec2>> outlinesOf(const RigidBodyDef& def)
     return rings;
 }
 
+Drawing takenApart(BodyHandle handle, const RigidBodyDef& def)
+{
+    try {
+        return RigidStage::takeApart(def);
+    } catch (const Failure& failure) {
+        checks().fail(named("body", handle) + ": its outline " + failure.error().message);
+    }
+}
+
 /// The side of a square as large as the region; for bodies without area, a part of their extent.
 double typicalLength(const Region& region, const Box& bounds)
 {
@@ -145,6 +154,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
 {
     const auto handle = static_cast<BodyHandle>(state_.bodies.size());
     checks().check(handle, def, settings_.materialCount);
+    const Drawing drawing = takenApart(handle, def);  // may refuse: nothing is changed before
     BodyRecord& body = newBody(def.common, true);
     body.nodes.count = 1;
     Nodes& nodes = state_.nodes;
@@ -153,7 +163,7 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     body.single = isSingle(def);
     const std::vector<std::vector<Vec2>> outlines = outlinesOf(def);
     if (!lean_ || !body.single) keepOutline(body, outlines, def.shapes.empty() ? Inside::OddRings : Inside::AnyRing);
-    setRigidMass(handle, def, outlines);
+    setRigidMass(handle, def, outlines, drawing);
     if (body.simple) {
         body.grid.reset();
     } else {
@@ -168,7 +178,8 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
 
 /// Puts the node at the centre of mass and makes the points local to it. Borders without area count as equal masses at
 /// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
-void World::setRigidMass(BodyHandle handle, const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines)
+void World::setRigidMass(BodyHandle handle, const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines,
+                         const Drawing& drawing)
 {
     BodyRecord& body = state_.bodies[handle];
     const Region region = def.shapes.empty() ? measureRegion(state_, body) : measureShapes(def.shapes);
@@ -194,7 +205,7 @@ void World::setRigidMass(BodyHandle handle, const RigidBodyDef& def, const std::
     const Index node = body.nodes.first;
     state_.nodes.position[node] = centre;
     const double gyration = std::sqrt(second);
-    body.simple = rigid_.add(state_, handle, def, gyration);
+    body.simple = rigid_.add(state_, handle, def, drawing, gyration);
     if (!body.simple) gyrations_.cover(handle + std::size_t{1}), gyrations_[handle] = gyration;
     applyMotion(handle);
 }
@@ -272,8 +283,9 @@ ActuatorHandle World::addForceField(const ForceFieldDef& def)
 {
     checks().check(fields_.count(), def);
     rigid_.wakeAll(state_);
+    const ActuatorHandle field = fields_.add(def);  // may refuse its region
     structure_.add(def);
-    return fields_.add(def);
+    return field;
 }
 
 ActuatorHandle World::addForce(const ForceActuatorDef& def)

@@ -106,7 +106,7 @@ private:
     void reread(BodyHandle);
     void extendReadings();
     BodyHandle finishBody(const BodyCommon&);
-    void setRigidMass(BodyHandle, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines);
+    void setRigidMass(BodyHandle, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines, const Drawing&);
     void applyMotion(BodyHandle);
     static bool isHeld(const BodyRecord&);
     void holdSoft(BodyRecord&, bool before);

@@ -60,18 +60,23 @@ void World::cutTorn()
 void World::refuseExplosion()
 {
     Nodes& nodes = state_.nodes;
-    for (Index n = 0; n < nodes.size(); ++n) {
+    const auto runsAway = [&](Index n) {
         constexpr double kMost = 0.5 * soft::kMostSpeed;
-        if (nodes.velocity[n].squaredNorm() <= kMost * kMost && std::abs(nodes.omega[n]) <= kMost) continue;
-        const auto has = [n](const BodyRecord& body) { return n >= body.nodes.first && n < body.nodes.end(); };
-        const auto body = std::find_if(state_.bodies.begin(), state_.bodies.end(), has);
-        const auto handle = body - state_.bodies.begin();
-        const Range& own = body->nodes;
-        for (Index k = own.first; k < own.end(); ++k) nodes.velocity[k] = Vec2(0, 0), nodes.omega[k] = 0;
-        throw Failure(Error("Physics: body " + std::to_string(handle) +
-                            " explodes: its springs are too stiff for semi-implicit Euler at this time step. Use the "
-                            "method \"automatic\", a smaller time step, or softer springs."));
+        return !(nodes.velocity[n].squaredNorm() <= kMost * kMost && std::abs(nodes.omega[n]) <= kMost);
+    };
+    Index first = kNone;
+    for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
+        const Range& own = state_.bodies[handle].nodes;
+        bool away = false;
+        for (Index n = own.first; n < own.end(); ++n) away |= runsAway(n);
+        if (!away) continue;
+        first = std::min(first, handle);
+        for (Index n = own.first; n < own.end(); ++n) nodes.velocity[n] = Vec2(0, 0), nodes.omega[n] = 0;
     }
+    if (first == kNone) return;
+    throw Failure(Error("Physics: body " + std::to_string(first) +
+                        " explodes: its springs are too stiff for semi-implicit Euler at this time step. Use the "
+                        "method \"automatic\", a smaller time step, or softer springs."));
 }
 
 void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)

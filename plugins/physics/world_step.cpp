@@ -15,7 +15,7 @@ namespace jet::physics {
 namespace {
 
 // Contacts are sought for the whole of a step: a long one is taken in parts of so many seconds.
-constexpr double kLongestPart = 0.05, kMostParts = 10000;
+constexpr double kLongestPart = 0.05, kLongestStep = 500;
 
 class Stopwatch {
 public:
@@ -60,6 +60,7 @@ private:
 void World::step(double dt)
 {
     checks().above("the step", "its time", dt, 0);
+    checks().within("the step", "its time", dt, 0, kLongestStep);
     if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), told_ = 0;
     rememberTouches();
     heedMaterials();
@@ -68,7 +69,7 @@ void World::step(double dt)
     stats_ = StepStats();
     islandsKnown_ = false;
     queries_.outdate();
-    const int parts = static_cast<int>(std::min(std::ceil(dt / kLongestPart - 1e-9), kMostParts));
+    const int parts = static_cast<int>(std::ceil(dt / kLongestPart - 1e-9));
     const std::vector<Vec2> forces = parts > 1 ? stepForces_.values() : std::vector<Vec2>();
     const bool pushed = pushed_;
     for (int i = 0; i < parts; ++i) {

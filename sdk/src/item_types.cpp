@@ -65,6 +65,17 @@ PropertyTable springProperties()
     };
 }
 
+/// One item that the engine refuses does not keep the scene from playing.
+template <class Add>
+void bindOrWarn(const Item& item, WorldBuilder& builder, Add&& add)
+{
+    try {
+        builder.bind(item, add());
+    } catch (const Failure& failure) {
+        builder.warn(item, failure.error().message + " It does nothing.");
+    }
+}
+
 /// Ends = first and last segment of the path (thesis §3.4.6).
 class SpringType final : public PlainType {
 public:
@@ -84,7 +95,7 @@ public:
         def.kd = get<double>(item, "kd");
         def.restLength = get<double>(item, "rest-length");
         def.tearRatio = get<double>(item, "tear-ratio");
-        builder.bind(item, builder.world().addSpring(def));
+        bindOrWarn(item, builder, [&] { return builder.world().addSpring(def); });
     }
 };
 
@@ -117,7 +128,7 @@ public:
         def.kd = get<double>(item, "kd");
         def.restFromPose = get<bool>(item, "rest-as-drawn");
         def.restAngle = get<double>(item, "rest-angle");
-        builder.bind(item, builder.world().addAngularSpring(def));
+        bindOrWarn(item, builder, [&] { return builder.world().addAngularSpring(def); });
     }
 };
 
@@ -148,7 +159,7 @@ public:
         if (def.at.body == kNoHandle)
             return builder.warn(item, "no body lies under the torque's centre; it does nothing");
         def.value = -get<double>(item, "value");  // the world counts clockwise on screen
-        builder.bind(item, builder.world().addTorque(def));
+        bindOrWarn(item, builder, [&] { return builder.world().addTorque(def); });
     }
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace jet {
 
@@ -25,6 +26,47 @@ std::string nameOf(JointHandle handle, const JointDef& def)
                                                    "wheel",    "motor",     "mouse", "pulley"};
     const auto kind = static_cast<std::size_t>(def.kind);
     return named("joint", handle) + (kind < kNames.size() ? std::string(" (") + kNames[kind] + ")" : std::string());
+}
+
+// Of a polygon's extent: what is nearer counts as one place, and so deep may a corner lie that rounding pushed in.
+constexpr double kSamePlace = 1e-9, kRounding = 1e-6;
+
+// Units. Squares of what is smaller are lost, and with them moments of inertia and directions.
+constexpr double kLeastSize = 1e-12;
+
+/// All at one place is allowed: it has no size.
+template <class Points>
+double sizeOf(const Points& lists)
+{
+    Box bounds;
+    for (const auto& list : lists)
+        for (const Vec2& at : list) bounds.extend(at);
+    return bounds.isNull() ? 0 : bounds.size().maxCoeff();
+}
+
+/// Why a polygon is none that an engine can take; empty: it is one.
+std::string faultOf(const std::vector<Vec2>& polygon)
+{
+    Box bounds;
+    for (const Vec2& at : polygon) bounds.extend(at);
+    const double extent = bounds.size().maxCoeff();
+    double twiceArea = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        twiceArea += cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
+    if (!(extent >= kLeastSize && std::abs(twiceArea) > kSamePlace * extent * extent))
+        return "encloses no area; draw one that does";
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const std::size_t next = (i + 1) % polygon.size();
+        const Vec2 side = polygon[next] - polygon[i];
+        const double length = side.norm();
+        if (!(length > kSamePlace * extent))
+            return "has its points " + std::to_string(i) + " and " + std::to_string(next) +
+                   " at one place; leave one of them out";
+        for (const Vec2& at : polygon)
+            if (cross(side, at - polygon[i]) * (twiceArea > 0 ? 1 : -1) < -kRounding * extent * length)
+                return "is not convex; give such an outline as borders";
+    }
+    return {};
 }
 
 bool sameMeeting(const MaterialPair& p, const MaterialPair& q)
@@ -138,7 +180,11 @@ void PhysicsChecks::check(BodyHandle handle, const BodyCommon& common, std::uint
     number(item, "one-sided direction", common.oneSided);
 }
 
-void PhysicsChecks::checkMass(BodyHandle handle, double mass) const { above(named("body", handle), "mass", mass, 0); }
+void PhysicsChecks::checkMass(BodyHandle handle, double mass) const
+{
+    above(named("body", handle), "mass", mass, 0);
+    atLeast(named("body", handle), "mass", mass, 1 / reach_.largest);  // engines divide by it
+}
 
 void PhysicsChecks::check(BodyHandle handle, const RigidBodyDef& def, std::uint32_t materialCount) const
 {
@@ -147,6 +193,7 @@ void PhysicsChecks::check(BodyHandle handle, const RigidBodyDef& def, std::uint3
     const std::string item = named("body", handle);
     for (const auto& border : def.borders)
         for (const Vec2& at : border) place(item, "a point of its border", at);
+    if (const double size = sizeOf(def.borders); size > 0) atLeast(item, "its size", size, kLeastSize);
     for (const ShapeDef& shape : def.shapes) check(item, shape, def.common.fixed);
 }
 
@@ -161,8 +208,11 @@ void PhysicsChecks::check(BodyHandle handle, const SoftBodyDef& def, std::uint32
              " particles need as many masses, and as many movable flags or none.");
     for (std::size_t i = 0; i < count; ++i) {
         place(item, "particle " + std::to_string(i) + "'s position", def.particles[i]);
-        above(item, "particle " + std::to_string(i) + "'s mass", def.masses[i], 0);
+        const std::string mass = "particle " + std::to_string(i) + "'s mass";
+        above(item, mass, def.masses[i], 0);
+        atLeast(item, mass, def.masses[i], 1 / reach_.largest);
     }
+    if (const double size = sizeOf(std::span(&def.particles, 1)); size > 0) atLeast(item, "its size", size, kLeastSize);
     for (const auto& border : def.borders)
         for (const std::uint32_t at : border) index(item + ": a border's particle", at, count);
     for (std::size_t i = 0; i < def.springs.size(); ++i) {
@@ -205,6 +255,8 @@ void PhysicsChecks::check(std::string_view item, const ShapeDef& shape, bool fix
     switch (shape.kind) {
     case ShapeDef::Kind::Polygon:
         if (count < 3 || count > 8) points("a polygon has 3 to 8 points (other outlines are given as borders)");
+        if (const std::string fault = faultOf(shape.points); !fault.empty())
+            fail(std::string(item) + ": a polygon of its shape " + fault + ".");
         return;
     case ShapeDef::Kind::Chain:
         if (!fixed)
@@ -212,11 +264,17 @@ void PhysicsChecks::check(std::string_view item, const ShapeDef& shape, bool fix
                 std::string(item) +
                 ": a chain has no inside, so only a fixed body may have one; draw a closed border for one that moves.");
         if (count < 2) points("a chain has 2 points or more");
+        if (!(sizeOf(std::span(&shape.points, 1)) >= kLeastSize))
+            fail(std::string(item) +
+                 ": the points of its chain are all at one place; a chain needs two different ones.");
         return;
     case ShapeDef::Kind::Circle:
     case ShapeDef::Kind::Capsule:
         if (count != (shape.kind == ShapeDef::Kind::Circle ? 1U : 2U)) points("a circle has one point, a capsule two");
         above(item, "the radius of its shape", shape.radius, 0);
+        atLeast(item, "the radius of its shape", shape.radius, kLeastSize);
+        if (count == 2 && !((shape.points[1] - shape.points[0]).norm() > kSamePlace * shape.radius))
+            fail(std::string(item) + ": both points of its capsule are at one place; use a circle instead.");
         return;
     }
     fail(std::string(item) + ": its kind of shape is none that there is.");

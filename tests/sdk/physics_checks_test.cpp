@@ -1,8 +1,9 @@
 // What engines refuse: the sentence names the engine, the item, the field, the value and the range.
 #include <jet/physics_checks.hpp>
 #include <jet/result.hpp>
+#include <jet/value.hpp>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <functional>
 #include <limits>
@@ -47,6 +48,58 @@ TEST(PhysicsChecks, NameItemFieldValueAndRange)
     settings.materials[0].restitution = 1.5;
     EXPECT_EQ(refusalOf([&] { kChecks.check(settings); }),
               "Toy: materials 0 and 0: restitution is 1.5; it must be from 0 to 1.");
+}
+
+std::string polygonRefusal(std::vector<Vec2> points)
+{
+    return refusalOf([&] { kChecks.check("body 1", ShapeDef{ShapeDef::Kind::Polygon, std::move(points), 0}, false); });
+}
+
+TEST(PhysicsChecks, PolygonsEncloseAnAreaAreConvexAndHaveEachPointOnce)
+{
+    EXPECT_EQ(polygonRefusal({{0, 0}, {4, 0}, {4, 3}, {0, 3}}), "");
+    EXPECT_EQ(polygonRefusal({{0, 3}, {4, 3}, {4, 0}, {0, 0}}), "") << "in either direction";
+    EXPECT_EQ(polygonRefusal({{0, 0}, {2, 1e-9}, {4, 0}, {4, 3}}), "") << "what rounding pushed in";
+    const std::string flat = "Toy: body 1: a polygon of its shape encloses no area; draw one that does.";
+    EXPECT_EQ(polygonRefusal({{5, 5}, {5, 5}, {5, 5}}), flat);
+    EXPECT_EQ(polygonRefusal({{0, 0}, {4, 0}, {9, 0}}), flat);
+    EXPECT_EQ(polygonRefusal({{0, 0}, {4e-13, 0}, {4e-13, 3e-13}}), flat);
+    EXPECT_EQ(polygonRefusal({{0, 0}, {4, 0}, {4, 0}, {4, 3}}),
+              "Toy: body 1: a polygon of its shape has its points 1 and 2 at one place; leave one of them out.");
+    const std::string hollow = "Toy: body 1: a polygon of its shape is not convex; give such an outline as borders.";
+    EXPECT_EQ(polygonRefusal({{0, 0}, {4, 0}, {1, 1}, {0, 4}}), hollow);
+    EXPECT_EQ(polygonRefusal({{0, -5}, {3, 4}, {-5, -2}, {5, -2}, {-3, 4}}), hollow) << "turns one way, but twice";
+}
+
+TEST(PhysicsChecks, ChainsAndCapsulesHaveALength)
+{
+    const auto refusal = [](ShapeDef shape) { return refusalOf([&] { kChecks.check("body 1", shape, true); }); };
+    EXPECT_EQ(refusal({ShapeDef::Kind::Capsule, {{1, 1}, {1, 1}}, 2}),
+              "Toy: body 1: both points of its capsule are at one place; use a circle instead.");
+    EXPECT_EQ(refusal({ShapeDef::Kind::Chain, {{1, 1}, {1, 1}, {1, 1}}, 0}),
+              "Toy: body 1: the points of its chain are all at one place; a chain needs two different ones.");
+    EXPECT_EQ(refusal({ShapeDef::Kind::Chain, {{1, 1}, {1, 1}, {2, 1}}, 0}), "");
+}
+
+TEST(PhysicsChecks, WhatWouldBeLostInSquaresAndQuotientsIsRefused)
+{
+    EXPECT_EQ(refusalOf([] { kChecks.checkMass(3, 1e-320); }),
+              "Toy: body 3: mass is " + numberText(1e-320) + "; it must be " + numberText(1e-6) + " or more.");
+    RigidBodyDef rigid;
+    rigid.borders = {{{0, 0}, {1e-150, 0}, {0, 1e-150}}};
+    EXPECT_THAT(refusalOf([&] { kChecks.check(2, rigid, 1); }), testing::StartsWith("Toy: body 2: its size is "));
+    SoftBodyDef soft;
+    soft.particles = {{0, 0}, {1e-150, 0}};
+    soft.masses = {1, 1e-9};
+    EXPECT_THAT(refusalOf([&] { kChecks.check(2, soft, 1); }), testing::StartsWith("Toy: body 2: particle 1's mass"));
+    soft.masses = {1, 1};
+    EXPECT_THAT(refusalOf([&] { kChecks.check(2, soft, 1); }), testing::StartsWith("Toy: body 2: its size is "));
+    soft.particles = {{3, 0}, {3, 0}};
+    EXPECT_EQ(refusalOf([&] { kChecks.check(2, soft, 1); }), "") << "at one place they have none";
+    EXPECT_THAT(refusalOf([] {
+                    kChecks.check("a cast", ShapeDef{ShapeDef::Kind::Circle, {{0, 0}}, 1e-300}, false);
+                }),
+                testing::StartsWith("Toy: a cast: the radius of its shape is "));
 }
 
 TEST(PhysicsChecks, EachFieldOfAJointIsNamedByItself)

@@ -245,6 +245,19 @@ TEST_F(SimulationTest, ASpringJoinsBodyAndBackground)
     EXPECT_THAT(texts(*simulation), testing::ElementsAre(HasSubstr("a spring needs a path with two ends")));
 }
 
+TEST_F(SimulationTest, ASpringTheEngineRefusesDoesNotKeepTheRestFromPlaying)
+{
+    addBody(Box({0, 0}, {10, 10}));
+    auto edit = items().begin("Spring");
+    edit.set(edit.add<SpringItem>(layer(), Path::line({5, 5}, {1e13, 5})), "name", std::string("Far"));
+    edit.add<SpringItem>(layer(), Path::line({5, 5}, {100, 5}));
+    edit.commit();
+    const auto simulation = start();
+    ASSERT_TRUE(simulation);
+    EXPECT_EQ(dynamic_cast<const test::FallingWorld&>(simulation->world()).springs.size(), 1u);
+    EXPECT_THAT(texts(*simulation), testing::ElementsAre(AllOf(HasSubstr("'Far'"), HasSubstr("10000000000000"))));
+}
+
 // --- scripts
 
 class ScriptedSimulationTest : public SimulationTest {

@@ -1,7 +1,10 @@
 #include "decompose.hpp"
 
+#include <jet/result.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <unordered_map>
 
 namespace jet::physics {
@@ -213,10 +216,45 @@ std::vector<Ring> ringsOf(const Mesh& mesh)
     return rings;
 }
 
+/// What follows takes time by their square, at worst.
+constexpr std::size_t kMostCornersDivided = 10'000, kMostWalls = 200'000;
+
+void requireFewCorners(const std::vector<Ring>& rings, std::size_t most, const std::string& otherwise)
+{
+    std::size_t corners = 0;
+    for (const Ring& ring : rings) corners += ring.size();
+    if (corners > most)
+        throw Failure(Error("has " + std::to_string(corners) + " corners, more than " + std::to_string(most) + "; " +
+                            otherwise + "."));
+}
+
+/// Pairs of long sides are looked at all by all in the first step: their boxes share one cell.
+void requireFewLongSides(const std::vector<Ring>& rings)
+{
+    constexpr double kLong = 0.125;  // of the extent
+    constexpr double kMostLooks = 4e8;
+    Box bounds;
+    for (const Ring& ring : rings)
+        for (const Vec2& at : ring) bounds.extend(at);
+    const double least = bounds.isNull() ? 0 : kLong * bounds.size().maxCoeff();
+    double all = 0, spanning = 0;
+    for (const Ring& ring : rings)
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            ++all, spanning += (ring[(i + 1) % ring.size()] - ring[i]).norm() > least;
+    if (all * spanning > kMostLooks)
+        throw Failure(Error("has " + std::to_string(static_cast<std::size_t>(spanning)) +
+                            " sides that reach across much of it, too many to find what they touch; draw it with "
+                            "fewer."));
+}
+
 }  // namespace
 
 Pieces decompose(const std::vector<Ring>& rings)
 {
+    requireFewCorners(rings, kMostCornersDivided,
+                      "it is divided into convex parts, which takes too long for more; draw it with fewer (that of a "
+                      "fixed body may have " +
+                          std::to_string(kMostWalls) + ")");
     Mesh mesh = triangulate(rings);
     improve(mesh);
     Pieces result;
@@ -229,6 +267,8 @@ Pieces decompose(const std::vector<Ring>& rings)
 std::vector<ChainSide> outlineSides(const std::vector<Ring>& drawn)
 {
     std::vector<Ring> rings = cleaned(drawn);
+    requireFewCorners(rings, kMostWalls, "draw it with fewer");
+    requireFewLongSides(rings);
     rings = areSimple(rings) ? oriented(std::move(rings)) : ringsOf(triangulate(rings));
     std::vector<ChainSide> sides;
     for (const Ring& ring : rings) {

@@ -21,7 +21,8 @@ struct Pieces {
     std::vector<Piece> pieces;
 };
 
-/// Convex pieces of at most 8 corners, which together are the region inside an odd number of the rings.
+/// Convex pieces of at most 8 corners, which together are the region inside an odd number of the rings. This and
+/// outlineSides() fail with the end of a sentence ("has 90000 corners; ...") where it would take seconds, or gigabytes.
 Pieces decompose(const std::vector<Ring>& rings);
 
 /// A wall of a region that never moves, solid on one side, with what is needed to glide from one to the next.

@@ -61,9 +61,8 @@ bool isConvex(const std::vector<Ring>& rings)
     return area != 0;
 }
 
-std::vector<DrawnPart> solidParts(const std::vector<Ring>& rings, const Vec2& centre, double length, bool outlined)
+std::vector<DrawnPart> solidParts(const Pieces& pieces, const Vec2& centre, double length, bool outlined)
 {
-    const Pieces pieces = decompose(rings);
     std::vector<DrawnPart> parts;
     for (const Piece& piece : pieces.pieces) {
         std::vector<Vec2> corners;
@@ -82,22 +81,34 @@ std::vector<DrawnPart> solidParts(const std::vector<Ring>& rings, const Vec2& ce
 
 }  // namespace
 
-std::vector<DrawnPart> drawnParts(const std::vector<Ring>& borders, const Vec2& centre, double length, DrawnAs as)
+Drawing takeApart(const std::vector<Ring>& borders, DrawnAs as)
 {
+    Drawing drawing;
+    drawing.as = as;
     const std::vector<Ring> rings = cleaned(borders);
     Box bounds;
     for (const Ring& ring : rings)
         for (const Vec2& at : ring) bounds.extend(at);
-    if (bounds.isNull() || bounds.size().maxCoeff() < kSmallest) return {};
+    if (bounds.isNull() || bounds.size().maxCoeff() < kSmallest) return drawing;
     if (isConvex(rings)) {
-        Ring corners = rings[0];
-        for (Vec2& at : corners) at -= centre;
-        DrawnPart whole;
-        whole.part = makePart(corners.data(), static_cast<int>(corners.size()), 0);
-        return {whole};
+        drawing.convex = rings[0];
+    } else if (as == DrawnAs::Walls) {
+        drawing.sides = outlineSides(rings);
+    } else {
+        drawing.pieces = decompose(rings);
     }
-    if (as == DrawnAs::Walls) return wallParts(outlineSides(rings), centre, length);
-    return solidParts(rings, centre, length, as == DrawnAs::Solid);
+    return drawing;
+}
+
+std::vector<DrawnPart> drawnParts(const Drawing& drawing, const Vec2& centre, double length)
+{
+    if (drawing.as == DrawnAs::Walls && drawing.convex.empty()) return wallParts(drawing.sides, centre, length);
+    if (drawing.convex.empty()) return solidParts(drawing.pieces, centre, length, drawing.as == DrawnAs::Solid);
+    Ring corners = drawing.convex;
+    for (Vec2& at : corners) at -= centre;
+    DrawnPart whole;
+    whole.part = makePart(corners.data(), static_cast<int>(corners.size()), 0);
+    return {whole};
 }
 
 std::vector<DrawnPart> chainParts(const std::vector<Vec2>& line, const Vec2& centre, double length)

@@ -19,8 +19,19 @@ enum class DrawnAs : std::uint8_t {
     Walls    ///< its sides, each solid behind: what never moves
 };
 
+/// A drawing taken apart, in scene coordinates.
+struct Drawing {
+    DrawnAs as = DrawnAs::Solid;
+    Ring convex;  ///< one ring of few corners: nothing to take apart
+    Pieces pieces;
+    std::vector<ChainSide> sides;
+};
+
+/// Fails with a sentence where that takes too long: see decompose().
+Drawing takeApart(const std::vector<Ring>& borders, DrawnAs);
+
 /// `centre`: origin of the parts' frame, scene units. `length`: typical size of the body. Empty without area.
-std::vector<DrawnPart> drawnParts(const std::vector<Ring>& borders, const Vec2& centre, double length, DrawnAs);
+std::vector<DrawnPart> drawnParts(const Drawing&, const Vec2& centre, double length);
 std::vector<DrawnPart> chainParts(const std::vector<Vec2>& line, const Vec2& centre, double length);
 
 }  // namespace jet::physics

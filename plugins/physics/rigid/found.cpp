@@ -37,6 +37,8 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena
         found.clear();
         const std::size_t first = block * kSoughtABlock, last = std::min(sweep_.parts(), first + kSoughtABlock);
         sweep_.seek(first, last, [&](Index a, Index b) {
+            // Parts of one body are never a pair, and those of a scribble all overlap.
+            if (parts_[a].body == parts_[b].body) return;
             const std::uint64_t left = leftOf(sweep_.box(a), a), right = leftOf(sweep_.box(b), b);
             found.push_back(right >> 32 < left >> 32 ? FoundPair{right, left} : FoundPair{left, right});
         });

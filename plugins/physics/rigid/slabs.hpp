@@ -5,7 +5,8 @@
 
 namespace jet::physics {
 
-/// Triangles of the region inside an odd number of the rings.
+/// Triangles of the region inside an odd number of the rings. Fails where there are too many crossings; see
+/// decompose().
 Mesh slabs(const std::vector<Ring>& rings);
 
 }  // namespace jet::physics

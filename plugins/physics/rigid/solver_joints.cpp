@@ -6,6 +6,7 @@
 // anew in every step.
 #include "solver.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace jet::physics {
@@ -100,8 +101,18 @@ void Solver<Real>::startJoints(const std::vector<Joint>& joints, const State& st
 template <class Real>
 void Solver<Real>::keepRows(std::vector<Joint>& joints)
 {
-    for (const auto& rows : rows_)
-        for (const JointRow<Real>& row : rows) {
+    // What ran away starts from nothing in the next step, as its bodies do (speed_limit.hpp).
+    const auto calm = [](Real& impulse) {
+        if (!std::isfinite(impulse)) impulse = 0;
+    };
+    for (JointColour& colour : jointColours_)
+        for (std::size_t at = 0; at < colour.count; ++at) {
+            JointLanes<Real>& g = colour.joints[at / kWidth];
+            calm(g.impulseX[at % kWidth]), calm(g.impulseY[at % kWidth]);
+        }
+    for (auto& rows : rows_)
+        for (JointRow<Real>& row : rows) {
+            calm(row.impulse);
             joints[row.joint].impulse[row.slot] = static_cast<double>(row.impulse);
             joints[row.joint].substep = shape_.h;
         }
@@ -131,6 +142,12 @@ void Solver<Real>::tellJoints(std::vector<Joint>& joints)
             Joint& joint = joints[row.joint];
             joint.state.force += static_cast<double>(row.impulse) / jointsH_ * Vec2(row.bx, row.by);
             if (row.bx == 0 && row.by == 0) joint.state.torque += row.torqueOfB() / jointsH_;
+        }
+    for (const auto& rowed : rowed_)
+        for (const Rowed& each : rowed) {
+            jet::JointState& told = joints[each.joint].state;
+            if (!isFinite(told.force)) told.force = Vec2(0, 0);
+            if (!std::isfinite(told.torque)) told.torque = 0;
         }
 }
 

@@ -1,6 +1,5 @@
 #include "stage.hpp"
 
-#include "drawn.hpp"
 #include "room.hpp"
 #include "speed_limit.hpp"
 #include "validation.hpp"
@@ -15,6 +14,8 @@ namespace {
 constexpr std::size_t kSmallWorld = 512;  // bodies: worlds up to here are solved in double precision
 constexpr double kContactRate = 480;      // substeps a second of small worlds
 constexpr int kLargeSubsteps = 4;
+// Units / s²: far beyond what speed_limit.hpp leaves of it, and its square still a number in single precision.
+constexpr double kMostAcceleration = 1e15;
 constexpr float kHitSmall = 0.08F,
                 kHitLarge = 0.6F;  // lengths a substep that make a hit
 constexpr int kHitPasses = 12;
@@ -48,10 +49,10 @@ DrawnAs drawnAs(const BodyCommon& common)
 }
 
 /// About the centre of mass.
-std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Vec2& centre, double length)
+std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Drawing& drawing, const Vec2& centre, double length)
 {
     std::vector<DrawnPart> parts;
-    if (!def.borders.empty()) parts = drawnParts(def.borders, centre, length, drawnAs(def.common));
+    if (!def.borders.empty()) parts = drawnParts(drawing, centre, length);
     for (const ShapeDef& shape : def.shapes) {
         if (shape.kind == ShapeDef::Kind::Chain) {
             for (DrawnPart& part : chainParts(shape.points, centre, length)) parts.push_back(std::move(part));
@@ -67,7 +68,12 @@ std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Vec2& centre, doub
 
 }  // namespace
 
-bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, double gyration)
+Drawing RigidStage::takeApart(const RigidBodyDef& def)
+{
+    return def.borders.empty() ? Drawing() : physics::takeApart(def.borders, drawnAs(def.common));
+}
+
+bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, const Drawing& drawing, double gyration)
 {
     const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
@@ -76,7 +82,7 @@ bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, 
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
     body.gyration = gyration;
-    const std::vector<DrawnPart> drawn = partsOf(def, state.nodes.position[node], state.bodies[handle].length);
+    const std::vector<DrawnPart> drawn = partsOf(def, drawing, state.nodes.position[node], state.bodies[handle].length);
     if (drawn.empty()) return false;
     const Index index = collider_.addBody(body, Rules(def.common));
     keepBodyOf(handle, index);
@@ -282,9 +288,12 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
         force = BodyPush<Real>();
         if (!body.moves || body.asleep) return;
         const double scale = settings.applyGravity ? state.bodies[body.handle].gravityScale : 0;
-        const Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
+        Vec2 pull = scale * settings.gravity + nodes.invMass[body.node] * nodes.force[body.node];
+        if (!(pull.squaredNorm() <= kMostAcceleration * kMostAcceleration)) pull *= kMostAcceleration / pull.norm();
         force.accelerationX = static_cast<Real>(pull.x()), force.accelerationY = static_cast<Real>(pull.y());
-        force.accelerationW = static_cast<Real>(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node]);
+        force.accelerationW =
+            static_cast<Real>(std::clamp(body.gyration * nodes.invInertia[body.node] * nodes.torque[body.node],
+                                         -kMostAcceleration, kMostAcceleration));
     });
     startJoints(solver, state);
     solver.prepare(passesFor(solver.hardestHit(), large, shape.h));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "collider.hpp"
+#include "drawn.hpp"
 #include "nets.hpp"
 #include "solver.hpp"
 #include "touches.hpp"
@@ -20,8 +21,10 @@ struct Bonds {
 
 class RigidStage {
 public:
+    /// The body's borders; fails with a sentence where they are too intricate.
+    static Drawing takeApart(const RigidBodyDef&);
     /// Takes the body if its outline is simple; its node is where it shall be. Says whether it did.
-    bool add(const State&, Index handle, const RigidBodyDef&, double gyration);
+    bool add(const State&, Index handle, const RigidBodyDef&, const Drawing&, double gyration);
     /// Its radius, units.
     double gyrationOf(Index handle) const { return collider_.bodies()[bodyOf(handle)].gyration; }
     /// Of a body that has no other.

@@ -2,6 +2,8 @@
 
 #include "slabs.hpp"
 
+#include <jet/result.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -245,12 +247,23 @@ bool areSimple(const std::vector<Ring>& rings)
     for (std::size_t r = 0; r < rings.size(); ++r)
         for (std::size_t i = 0; i < rings[r].size(); ++i)
             sides.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], r, i, rings[r].size()});
-    const auto left = [](const Side& s) { return std::min(s.a.x(), s.b.x()); };
+    // Along the axis on which the sides are shorter: fewer lie beside each other.
+    Vec2 lengths(0, 0);
+    for (const Side& side : sides) lengths += (side.b - side.a).cwiseAbs();
+    const int axis = lengths.y() < lengths.x() ? 1 : 0;
+    const auto left = [&](const Side& s) { return std::min(s.a[axis], s.b[axis]); };
     std::sort(sides.begin(), sides.end(), [&](const Side& p, const Side& q) { return left(p) < left(q); });
+    std::size_t looks = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        const double right = std::max(sides[i].a.x(), sides[i].b.x());
-        for (std::size_t k = i + 1; k < sides.size() && left(sides[k]) <= right; ++k)
+        const double right = std::max(sides[i].a[axis], sides[i].b[axis]);
+        std::size_t k = i + 1;
+        for (; k < sides.size() && left(sides[k]) <= right; ++k)
             if (touch(sides[i], sides[k])) return false;
+        constexpr std::size_t kMostLooks = 200'000'000;  // about a second
+        looks += k - i;
+        if (looks > kMostLooks)
+            throw Failure(Error("has " + std::to_string(sides.size()) +
+                                " corners and too many sides beside each other; draw it with fewer corners."));
     }
     return true;
 }

@@ -71,6 +71,7 @@ void Contacts::skin(State& state, Index handle)
             const Index i = kWide * k + lane, wall = body.walls.first + i;
             if (i >= body.walls.count) {
                 block.x[lane] = block.y[lane] = 1e30F;
+                block.normalX[lane] = block.normalY[lane] = nowhere;  // nothing reaches so far that it counts as near
                 continue;
             }
             const Vec2 first = state.points.position[state.walls.first[wall]] - skin.origin;

@@ -49,6 +49,26 @@ TEST(Box2dWorld, ARefusedBodyLeavesNothingBehind)
     world.step(kStep);
 }
 
+/// Else adding them takes minutes: crossings, holes and neighbours are sought by their square.
+TEST(Box2dWorld, OutlinesThatAreTooIntricateAreRefused)
+{
+    World world(WorldSettings{});
+    RigidBodyDef rings;
+    rings.common.fixed = true;
+    for (int i = 0; i < 4000; ++i) {
+        const double x = 3.0 * (i % 100), y = 3.0 * (i / 100);
+        rings.borders.push_back({{x, y}, {x + 2, y}, {x, y + 2}});
+    }
+    EXPECT_NE(refusalOf([&] { world.addRigidBody(rings); }).find("body 0: its outline has 12000 corners"),
+              std::string::npos);
+    RigidBodyDef scribble;
+    auto& ring = scribble.borders.emplace_back();
+    for (int i = 0; i < 1000; ++i) ring.push_back({i * 7919 % 601 * 1.0, i * 104729 % 307 * 1.0});
+    const std::string refusal = refusalOf([&] { world.addRigidBody(scribble); });
+    EXPECT_NE(refusal.find("3000 trapezoids"), std::string::npos) << refusal;
+    EXPECT_EQ(world.bodyCount(), 0u);
+}
+
 TEST(Box2dWorld, ABodyDoesNotBecomeFixedWhileTheWorldRuns)
 {
     World world{WorldSettings()};

@@ -176,6 +176,30 @@ TEST(Decompose, RandomScribblesNeitherFailNorLoseArea)
     }
 }
 
+/// A spike of 1.7e8 units makes the grain 0.17: lines cross nearer to a level than it can tell, and lie on it the other
+/// way round.
+TEST(Decompose, LinesThatCrossNearerToALevelThanGrainsCanTellAreCut)
+{
+    const Pieces pieces = decompose({{{18.036195901108865, -36.636536791843234},
+                                      {17.157046173063424, -33.930792147125679},
+                                      {14.855402303840235, -32.258549991812224},
+                                      {12.010414021484737, -32.258549991812224},
+                                      {9.7087701522615468, -33.930792147125679},
+                                      {8.829620424216106, -36.636536791843234},
+                                      {167384868.93805033, -39.342281436560789},
+                                      {12.010414021484735, -41.014523591874244},
+                                      {14.855402303840235, -41.014523591874244},
+                                      {17.157046173063424, -39.342281436560789}},
+                                     {{16.494847297532445, -36.636536791843234},
+                                      {14.76483680313912, -32.537281942356081},
+                                      {9.8106795580412616, -34.004833664428396},
+                                      {9.110943288670061, -39.776628077344057},
+                                      {14.84760888422681, -40.990537912631709}}});
+    EXPECT_GT(momentsOf(pieces).area, 0);
+    for (const Piece& piece : pieces.pieces)
+        for (const std::uint32_t corner : piece.corners) EXPECT_LT(corner, pieces.points.size());
+}
+
 TEST(Decompose, ARoundOutlineNeedsFewParts)
 {
     EXPECT_LE(decompose({circleRing({0, 0}, 10, 64)}).pieces.size(), 20u);

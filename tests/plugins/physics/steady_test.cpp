@@ -63,6 +63,19 @@ long allocationsOf(PhysicsWorld& world, int warmUp, int steps)
     return allocations - before;
 }
 
+/// All parts of a zigzag overlap, but none is a pair with another: of 2,000 there would be two million.
+TEST(SteadyStep, ABodyWhosePartsOverlapTakesNoMemoryForPairsOfThem)
+{
+    auto world = makeWorld({0, 100});
+    std::vector<Vec2> zigzag;
+    for (int i = 0; i < 2000; ++i) zigzag.push_back({i % 2 == 0 ? 0.0 : 500.0, i / 2 * 1e-3});
+    world->addRigidBody(fixed({zigzag}));
+    world->addRigidBody(box({250, -100}, 10, 10));
+    const long before = liveBytes;
+    world->step(kStep);
+    EXPECT_LT(liveBytes - before, 8'000'000);
+}
+
 TEST(SteadyStep, TheCountSeesAnAllocation)
 {
     const long before = allocations;
