@@ -147,7 +147,7 @@ void World::stepPart(double dt)
     pushed_ = false;
     for (BodyRecord& body : state_.bodies) body.flown = false;
     restIfDue(dt);
-    springs_.flow(state_, dt);
+    springs_.flow(state_, dt, h);
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
     if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
