@@ -155,6 +155,36 @@ TEST(SoftEnergy, AnElasticWeldToAPatchThatIsCrushedGainsNothing)
     }
 }
 
+/// Pushes work against the springs to a twin, too.
+TEST(SoftEnergy, CompositeBodiesGainNothingFromJointsThatPressThem)
+{
+    struct Case {
+        double ks, radius;
+        bool heavyRing;  // else every other particle
+    };
+    for (const auto& [ks, radius, heavyRing] : {Case{1e4, 18, true}, {3e3, 25, false}}) {
+        for (const double dt : {1.0 / 60, 1.0 / 240}) {
+            auto world = makeWorld({0, 50});
+            Energy energy(*world, 50);
+            for (int i = 0; i < 2; ++i) {
+                SoftBodyDef def = unevenBall({45.0 * i, 0}, ks, 100);
+                for (std::size_t k = 0; heavyRing && k < def.masses.size(); ++k) def.masses[k] = k > 12 ? 100 : 1;
+                for (SpringDef& spring : def.springs) spring.kd = 0;
+                def.matter.shapeStiffness = ks, def.matter.shapeDamping = 0;
+                energy.add(def);
+            }
+            world->addJoint(hold(JointDef::Kind::Weld, {-12, 3}, kNoHandle, 0, 0, radius));
+            world->addJoint(hold(JointDef::Kind::Weld, {22, 0}, 0, radius, 1, radius));
+            double most = 0;
+            for (int i = 0; i < static_cast<int>(std::lround(4 / dt)); ++i) {
+                energy.step(dt);
+                if (i % 4 == 0) most = std::max(most, energy.now());
+            }
+            EXPECT_LT(most, 0.01 * energy.weight() * kSize) << ks << ", " << dt;
+        }
+    }
+}
+
 /// Springs flow by the strain half way along their last move: where they swing in a few substeps that before and that
 /// after it have opposite signs, and what flows by either feeds the swing.
 TEST(SoftEnergy, WhatFlowsWhileItSwingsInFewSubstepsGainsNothing)
