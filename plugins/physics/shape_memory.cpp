@@ -151,7 +151,9 @@ bool ShapeMemory::relaxes(State& state, Lattice& lattice, double dt)
 {
     if (forgets(state, lattice)) return true;
     const soft::Cloud cloud = cloudOf(state, lattice);
-    const soft::CloudStray stray = kernels_->stray(cloud, match(cloud, lattice).rigid);
+    const soft::CloudMotion motion = match(cloud, lattice).rigid;
+    lattice.rotation = Vec2(motion.c, motion.s);
+    const soft::CloudStray stray = kernels_->stray(cloud, motion);
     return std::sqrt(stray.off) + std::sqrt(stray.speed) * dt < kRelaxed * lattice.tolerance;
 }
 
@@ -171,7 +173,8 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h, std:
         if (state.bodies[lattice.body].flown || isRelaxed(lattice) || springs.anyTorn(lattice.body)) continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const Motion motion = match(cloud, lattice);
-        const double rate = std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));
+        lattice.rotation = Vec2(motion.rigid.c, motion.rigid.s);
+        const double rate = rateAt(lattice, h);
         const double damped = std::min(1.0, 2 * kDampingRatio * std::sqrt(rate) * h);
         double* change = change_.front().data();
         const soft::CloudPulled pulled =
@@ -188,15 +191,26 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h, std:
     }
 }
 
-ShapeMemory::Motion ShapeMemory::match(const soft::Cloud& cloud, Lattice& lattice) const
+double ShapeMemory::rateAt(const Lattice& lattice, double h)
+{
+    return std::min(lattice.rate, kMostPhase * kMostPhase / (h * h));
+}
+
+double ShapeMemory::energy(State& state, const Lattice& lattice, double h)
+{
+    const soft::Cloud cloud = cloudOf(state, lattice);
+    return 0.5 * rateAt(lattice, h) * soft::drawn(cloud, match(cloud, lattice).rigid, lattice.tolerance, h);
+}
+
+ShapeMemory::Motion ShapeMemory::match(const soft::Cloud& cloud, const Lattice& lattice) const
 {
     const soft::CloudSums sums = kernels_->sums(cloud);
     Motion motion;
     motion.inertia = sums.inertia;
     motion.fit = std::sqrt(sums.along * sums.along + sums.across * sums.across);
     motion.certain = motion.fit > kLeastFit * lattice.inertia;
-    if (motion.certain) lattice.rotation = Vec2(sums.along, sums.across) / motion.fit;
-    motion.rigid = {sums.x, sums.y, sums.vx, sums.vy, sums.omega(), lattice.rotation.x(), lattice.rotation.y()};
+    const Vec2 rotation = motion.certain ? Vec2(Vec2(sums.along, sums.across) / motion.fit) : lattice.rotation;
+    motion.rigid = {sums.x, sums.y, sums.vx, sums.vy, sums.omega(), rotation.x(), rotation.y()};
     return motion;
 }
 

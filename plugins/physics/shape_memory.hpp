@@ -36,6 +36,15 @@ public:
     /// be seen as it is crushed: later, it would get what it costs to crush it as a present. Empty: as of look().
     void apply(State&, const SoftSprings&, double h, std::span<const double> offs);
 
+    /// What it holds of bodies that count(body): visit(body, energy), as of SoftSprings::energy().
+    template <class Counts, class Visit>
+    void eachEnergy(State& state, const SoftSprings& springs, double h, Counts&& counts, Visit&& visit)
+    {
+        for (Lattice& lattice : lattices_)
+            if (counts(lattice.body) && !springs.anyTorn(lattice.body) && !forgets(state, lattice))
+                visit(lattice.body, energy(state, lattice, h));
+    }
+
     template <class Archive>
     void archive(Archive& with)
     {
@@ -57,17 +66,19 @@ private:
     };
     /// The rigid motion nearest to that of the particles.
     struct Motion {
-        soft::CloudMotion rigid;
-        double inertia = 0;   // sum m |p|²
-        double fit = 0;       // sum m (R q)·p; inertia at rest
-        bool certain = true;  // is there a best R?
+        soft::CloudMotion rigid;  // R: (c, s)
+        double inertia = 0;       // sum m |p|²
+        double fit = 0;           // sum m (R q)·p; inertia at rest
+        bool certain = true;      // is there a best R?
     };
 
     static bool anyPinned(const State&, const Lattice&);
     static bool forgets(const State&, const Lattice&);
     bool relaxes(State&, Lattice&, double dt);
+    double energy(State&, const Lattice&, double h);
+    static double rateAt(const Lattice& lattice, double h);
     soft::Cloud cloudOf(State&, const Lattice&);
-    Motion match(const soft::Cloud&, Lattice&) const;
+    Motion match(const soft::Cloud&, const Lattice&) const;
     static soft::CloudReturn netOf(const soft::CloudPulled&, const Lattice&, const Motion&);
 
     const soft::CloudKernels* kernels_ = &soft::sse2::clouds;

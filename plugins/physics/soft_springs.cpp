@@ -493,8 +493,13 @@ double SoftSprings::energy(const State& state, const Angular& spring, double h)
 }
 
 /// Bingham's body: elastic up to the yield, then the strain beyond it fades at the rate `creep`.
-void SoftSprings::flow(const State& state, double dt)
+///
+/// It is the strain half way along the last move that flows. What swings under symplectic Euler holds ½ ks e e', e' the
+/// strain before that move: a flow d changes that by ½ ks d (d - e - e'), and so takes energy wherever d is a part of
+/// (e + e') / 2. By the strain e alone it would feed what swings fast, as e and e' have opposite signs there.
+void SoftSprings::flow(const State& state, double dt, double h)
 {
+    const Nodes& nodes = state.nodes;
     for (Index body = 0; body < meshes_.size(); ++body) {
         Mesh& mesh = meshes_[body];
         if (mesh.springs.count == 0 || !state.bodies[body].enabled) continue;
@@ -504,7 +509,9 @@ void SoftSprings::flow(const State& state, double dt)
         bool flowed = false;
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
             if (!alive_[i] || !(rest_[i] > 0)) continue;
-            const double strain = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm() / rest_[i] - 1;
+            const Vec2 apart = nodes.position[a_[i]] - nodes.position[b_[i]];
+            const Vec2 before = apart - h * (nodes.velocity[a_[i]] - nodes.velocity[b_[i]]);
+            const double strain = 0.5 * (apart.norm() + before.norm()) / rest_[i] - 1;
             const double beyond = strain - std::clamp(strain, -matter.yield, matter.yield);
             if (beyond == 0) continue;
             if (drawn_.empty()) drawn_ = rest_;

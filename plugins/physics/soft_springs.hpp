@@ -46,8 +46,9 @@ public:
     /// What the springs and angular springs of a soft body hold, torn ones nothing: ½ ks e e', e the strain now, e'
     /// before the last move over h.
     double energy(const State&, Index body, double h) const;
-    /// Plasticity: lets springs that are strained beyond the yield of their body flow, over a step of dt.
-    void flow(const State&, double dt);
+    /// Plasticity: lets springs that are strained beyond the yield of their body flow, over a step of dt
+    /// whose substeps take h.
+    void flow(const State&, double dt, double h);
 
     void use(const soft::Kernels& kernels) { kernels_ = &kernels; }
     const soft::Kernels& kernels() const { return *kernels_; }

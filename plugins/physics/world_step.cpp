@@ -136,19 +136,19 @@ void World::stepPart(double dt)
             flyFree(h, count);
         }
         if (!plain && i % soft::Accounts::kSubsteps == 0) {
-            accounts_.close(accounted(h));
+            accounts_.close(accounted(h), soft::Accounts::kSubsteps);
             accounts_.open(accounted(h));
         }
         substep(h, i, count);
         if (i + 1 < count) continue;
-        accounts_.close(accounted(h));
+        accounts_.close(accounted(h), i % soft::Accounts::kSubsteps + 1);
         rigid_.finish(state_, true);
     }
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
     for (BodyRecord& body : state_.bodies) body.flown = false;
     restIfDue(dt);
-    springs_.flow(state_, dt);
+    springs_.flow(state_, dt, h);
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
     if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
@@ -180,7 +180,7 @@ void World::prepareStiffness()
 soft::Accounts::Scene World::accounted(double h)
 {
     const Vec2 gravity = settings_.applyGravity ? settings_.gravity : Vec2(0, 0);
-    return {state_, softJoints_, actuators_, springs_, gravity, h};
+    return {state_, softJoints_, actuators_, springs_, shapes_, twins_, gravity, h};
 }
 
 void World::substep(double h, int index, int count)
@@ -190,6 +190,7 @@ void World::substep(double h, int index, int count)
     const bool accounts = !plain_ && accounts_.any();
     {
         const Stopwatch watch(stats_.springsMs);
+        if (accounts) accounts_.begin(state_);
         // Before the forces: its damping must not take from what they give, or what bears a load would yield more.
         twins_.apply(state_, springs_, h);
         const bool pushed = anyForces();
@@ -199,18 +200,15 @@ void World::substep(double h, int index, int count)
         if (fields_.count() > 0)
             fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
         if (accounts && pushed) accounts_.force(accounted(h));
-        if (accounts) accounts_.begin(state_);
         springs_.addForces(state_);
         if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
         integrateVelocities(state_, settings_, springs_, h, pushed);
         const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
         soft::applyPressure(state_, h);
-        if (accounts) accounts_.end(state_);
         const std::span<const double> offs = settings_.findCollisions ? finder_.offs() : std::span<const double>();
         if (index == 0 && !plain_ && offs.empty()) shapes_.look(state_, count * h);
         if (!plain_) shapes_.apply(state_, springs_, h, offs);
-        if (accounts) accounts_.begin(state_);
         if (!plain_) actuators_.applySprings(state_, h, backwards);
         if (accounts) accounts_.end(state_);
         if (plain_) refuseExplosion();

@@ -12,7 +12,7 @@ namespace jet::physics::soft {
 namespace {
 
 constexpr double kReserve = 0.05;  // of the kinetic energy
-constexpr double kOwed = 0.99;     // of a debt that is owed still after kSubsteps
+constexpr double kForgiven = 0.6;  // of a debt, a second
 constexpr double kRest = 0.01;     // lengths of a body a second: slower is at rest
 constexpr Index kMostParticles = 1024;
 
@@ -124,6 +124,10 @@ void Accounts::addHeld(const Scene& scene, double sign)
     };
     scene.actuators.eachEnergy(scene.state, scene.h, add);
     scene.joints.eachEnergy(scene.state, scene.h, add);
+    const auto counts = [&](Index body) { return netOf(body) != kNone; };
+    const auto addOf = [&](Index body, double energy) { nets_[netOf(body)].held += energy; };
+    scene.shapes.eachEnergy(scene.state, scene.springs, scene.h, counts, addOf);
+    scene.twins.eachEnergy(scene.state, scene.springs, scene.h, counts, addOf);
     for (Net& net : nets_) net.gained += sign * net.held;
 }
 
@@ -207,9 +211,10 @@ double Accounts::settle(Net& net, double kinetic, double jolt)
     return std::max(0.0, -left);
 }
 
-void Accounts::close(const Scene& scene)
+void Accounts::close(const Scene& scene, int substeps)
 {
     if (!any()) return;
+    const double owed = decay(kForgiven * substeps * scene.h);
     addHeld(scene, 1);
     takeGiven(scene);
     std::swap(ledgers_, former_);
@@ -227,7 +232,7 @@ void Accounts::close(const Scene& scene)
         ledger.body = net.body;
         // What went elsewhere, as into flow, is owed no more; what cannot be found is forgotten.
         if (ledger.reserve < 0)
-            ledger.reserve = kOwed * std::min(0.0, ledger.reserve + std::max(0.0, ledger.held - net.heldBefore));
+            ledger.reserve = owed * std::min(0.0, ledger.reserve + std::max(0.0, ledger.held - net.heldBefore));
         const double excess = settle(net, kinetic(scene.state, net, Whole()), jolt);
         if (excess > 0) ledger.reserve = -std::max(0.0, excess - take(scene, net, excess, jolt));
         ledger.held = net.held;

@@ -2,19 +2,22 @@
 //
 // Joints and springs do no work of their own, but a push that moves particles against the springs of their body does:
 // it is taken back as velocity, what it strained stays. So an account is kept of each net, soft bodies and what is
-// joined to them: its kinetic energy and what its springs and gas hold, which only forces, motors, mice, shape memory,
-// contacts and other stages may add to. What a step leaves too much is taken out of the motion within the net; momentum
-// and angular momentum stay. What cannot be taken is owed, and what owes pushes out errors less (decision 0066).
+// joined to them: its kinetic energy and what its springs, gas, twins and memory of shapes hold, which only forces,
+// motors, mice, contacts and other stages may add to. What a step leaves too much is taken out of the motion within the
+// net; momentum and angular momentum stay. What cannot be taken is owed, and what owes pushes out errors less (decision
+// 0066).
 //
-// Order of calls: open -> each substep: force before springs; begin and end around springs, around joints, and around
-// springs of the scene -> close.
+// Order of calls: open -> each substep: begin and end around all springs, with force between them where the forces on
+// the nodes are known, and around joints -> close.
 //
 // Springs hold ½ ks e e', e and e' their strains before and after a move: with it symplectic Euler keeps the energy of
 // what swings to rounding, whatever the substep, and ½ ks e² would rise and fall with the phase.
 #pragma once
 
 #include "actuators.hpp"
+#include "shape_memory.hpp"
 #include "soft/joints.hpp"
+#include "soft/twins.hpp"
 #include "soft_springs.hpp"
 
 #include <vector>
@@ -30,6 +33,8 @@ public:
         Joints& joints;
         const Actuators& actuators;
         const SoftSprings& springs;
+        ShapeMemory& shapes;
+        const Twins& twins;
         Vec2 gravity;  // units / s²
         double h;      // seconds of a substep
     };
@@ -43,7 +48,7 @@ public:
     void begin(const State& state) { change(state, -1); }
     void end(const State& state) { change(state, 1); }
     /// After some substeps, kSubsteps at most: takes what is too much.
-    void close(const Scene&);
+    void close(const Scene&, int substeps);
 
     template <class Archive>
     void archive(Archive& with)

@@ -57,6 +57,9 @@ struct CloudReturn {
     double x = 0, y = 0, goal = 0, place = 0;
 };
 
+/// sum m e·e', e what is drawn of each particle's way to its goal, e' the same before the last move over h.
+double drawn(const Cloud&, const CloudMotion&, double tolerance, double h);
+
 struct CloudKernels {
     CloudSums (*sums)(const Cloud&);
     CloudStray (*stray)(const Cloud&, const CloudMotion&);

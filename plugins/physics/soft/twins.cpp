@@ -34,11 +34,32 @@ void Twins::prepare(State& state, double h)
     }
 }
 
+bool Twins::pulls(const BodyRecord& body, const SoftSprings& springs, BodyHandle handle)
+{
+    return body.hasTwin() && body.enabled && !springs.anyTorn(handle);
+}
+
+double Twins::energy(const State& state, BodyHandle handle, double h) const
+{
+    const BodyRecord& body = state.bodies[handle];
+    const SoftRecord& own = *body.soft;
+    const Nodes& nodes = state.nodes;
+    const Index first = body.nodes.first;
+    const Cloud cloud{nodes.position[first].data(), nodes.velocity[first].data(), &nodes.mass[first],
+                      own.restArms[0].data(), body.nodes.count};
+    const CloudSums sums = kernels_->sums(cloud);
+    const double fit = std::sqrt(sums.along * sums.along + sums.across * sums.across);
+    const bool certain = fit > kLeastFit * own.restGyrationSquared * sums.mass;
+    const Vec2 turn = certain ? Vec2(Vec2(sums.along, sums.across) / fit) : own.twinTurn;
+    const CloudMotion motion{sums.x, sums.y, sums.vx, sums.vy, sums.omega(), turn.x(), turn.y()};
+    return 0.5 * own.twinRate * drawn(cloud, motion, 0, h);
+}
+
 void Twins::apply(State& state, const SoftSprings& springs, double h)
 {
     for (BodyHandle handle = 0; handle < state.bodies.size(); ++handle) {
         BodyRecord& body = state.bodies[handle];
-        if (body.hasTwin() && body.enabled && !springs.anyTorn(handle)) apply(state, body, h);
+        if (pulls(body, springs, handle)) apply(state, body, h);
     }
 }
 

@@ -33,8 +33,17 @@ public:
     static void prepare(State&, double h);
     /// Changes velocities by what the springs to all twins do in a substep of h seconds. Bodies that tore have none.
     void apply(State&, const SoftSprings&, double h);
+    /// What the springs to the twins of bodies that count(body) hold: visit(body, energy), as of SoftSprings::energy().
+    template <class Counts, class Visit>
+    void eachEnergy(const State& state, const SoftSprings& springs, double h, Counts&& counts, Visit&& visit) const
+    {
+        for (BodyHandle body = 0; body < state.bodies.size(); ++body)
+            if (counts(body) && pulls(state.bodies[body], springs, body)) visit(body, energy(state, body, h));
+    }
 
 private:
+    static bool pulls(const BodyRecord&, const SoftSprings&, BodyHandle);
+    double energy(const State&, BodyHandle, double h) const;
     void apply(State&, BodyRecord&, double h);
 
     const CloudKernels* kernels_ = &sse2::clouds;
