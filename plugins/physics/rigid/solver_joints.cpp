@@ -102,17 +102,16 @@ template <class Real>
 void Solver<Real>::keepRows(std::vector<Joint>& joints)
 {
     // What ran away starts from nothing in the next step, as its bodies do (speed_limit.hpp).
-    const auto calm = [](Real& impulse) {
-        if (!std::isfinite(impulse)) impulse = 0;
-    };
+    const auto calm = [](Real impulse) { return std::isfinite(impulse) ? impulse : Real(0); };
     for (JointColour& colour : jointColours_)
         for (std::size_t at = 0; at < colour.count; ++at) {
             JointLanes<Real>& g = colour.joints[at / kWidth];
-            calm(g.impulseX[at % kWidth]), calm(g.impulseY[at % kWidth]);
+            const std::size_t lane = at % kWidth;
+            g.impulseX[lane] = calm(g.impulseX[lane]), g.impulseY[lane] = calm(g.impulseY[lane]);
         }
     for (auto& rows : rows_)
         for (JointRow<Real>& row : rows) {
-            calm(row.impulse);
+            row.impulse = calm(row.impulse);
             joints[row.joint].impulse[row.slot] = static_cast<double>(row.impulse);
             joints[row.joint].substep = shape_.h;
         }
