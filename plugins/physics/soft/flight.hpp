@@ -14,9 +14,10 @@
 // A flight is an attempt: if a spring may tear, the body moves further than expected, or numbers get out of hand, it is
 // given up, nothing has changed, and the body goes substep by substep.
 //
-// Springs are computed as in kernels.hpp, whole rows at once where nothing speaks against it. Here each block's forces are kept apart, in a ring that stays
-// near in the cache, and a node gathers those that pull at it when all are known: sums in memory would overlap from one
-// run to the next, and each wait for the one before. This needs a Pattern (layout.hpp).
+// Springs are computed as in kernels.hpp, whole rows at once where nothing speaks against it. Here each block's forces
+// are kept apart, in a ring that stays near in the cache, and a node gathers those that pull at it when all are known:
+// sums in memory would overlap from one run to the next, and each wait for the one before. This needs a Pattern
+// (layout.hpp).
 #pragma once
 
 #include "kernels.hpp"
