@@ -8,6 +8,10 @@ namespace jet::physics {
 
 /// Slop as a part of the length of the smaller body.
 inline constexpr double kSlopPerLength = 0.002;
+/// What a soft contact holds is in proportion to the lighter mass, so a heavy body would sink into a light one. A
+/// contact is soft up to so many slops of overlap; from there on it yields less and less, and from twice as many on it
+/// is as hard as its load demands.
+inline constexpr double kYieldSlops = 10;
 /// In slops: overlaps up to this depth can come of resting; a point deeper behind a wall went round its end or is
 /// inside.
 inline constexpr double kTouchDepth = 4;

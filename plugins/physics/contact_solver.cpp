@@ -216,8 +216,9 @@ void ContactSolver::solveWith(ContactPoint& c, Pass pass, Relative&& relative, A
         bias = c.separation / h_;
     } else if (pass == Pass::Push) {
         bias = std::max(soft.biasRate * std::min(0.0, c.separation + c.slop), -pushSpeed(c));
-        massScale = soft.massScale;
-        impulseScale = soft.impulseScale;
+        const double yields = std::clamp(2 + (c.separation + c.slop) / (kYieldSlops * c.slop), 0.0, 1.0);
+        massScale = soft.massScale + (1 - yields) * (1 - soft.massScale);
+        impulseScale = yields * soft.impulseScale;
     }
     const double normalSpeed = relative().dot(c.normal);
     if (!(std::abs(normalSpeed) < kAbsurdSpeed)) return;

@@ -7,6 +7,7 @@ constexpr float kTouchSlops = 4;  // kTouchDepth of contact_point.hpp
 constexpr float kIdleSlops = 5, kMostIdle = 8, kFarIdle = 6;
 constexpr float kMostDrift = 1;  // slops an acting contact moves before it is looked at again
 constexpr float kPushLengthsPerSecond = 4, kSlopsPerLength = 500;  // as of contact_solver.cpp
+constexpr float kYields = 10;                                      // kYieldSlops of contact_point.hpp
 
 /// Out of the wall, and how far the particle is along that. Units.
 struct Outward {
@@ -170,10 +171,14 @@ JET_INLINE void solveOne(ContactBlock& c, ContactHead& head, const Particles& pa
         const Eight slop = get(c.slop), rate = choose(still, all(step.still.biasRate), all(step.moving.biasRate));
         const Eight fastest = -kPushLengthsPerSecond * kSlopsPerLength * slop;
         const Eight bias = choose(apart, wanted, most(rate * least(zero, separation + slop), fastest));
-        const Eight massScale =
-            choose(apart, one, choose(still, all(step.still.massScale), all(step.moving.massScale)));
-        const Eight impulseScale =
-            where(~apart, choose(still, all(step.still.impulseScale), all(step.moving.impulseScale)));
+        Eight massScale = choose(still, all(step.still.massScale), all(step.moving.massScale));
+        Eight impulseScale = choose(still, all(step.still.impulseScale), all(step.moving.impulseScale));
+        const Eight deep = -(separation + slop), limit = kYields * slop;
+        if (bits(active & (deep > limit)) != 0) {
+            const Eight yields = most(zero, least(one, all(2.0F) - deep / limit));
+            massScale = massScale + (one - yields) * (one - massScale), impulseScale = yields * impulseScale;
+        }
+        massScale = choose(apart, one, massScale), impulseScale = where(~apart, impulseScale);
         wanted = -mass * massScale * (speed.apart + bias) - impulseScale * before;
     } else {
         wanted = -mass * (speed.apart + wanted);
