@@ -16,6 +16,8 @@
 
 #include <jet/physics.hpp>
 
+#include <functional>
+
 namespace jet::physics {
 
 class Collider {
@@ -115,8 +117,9 @@ public:
     void forgetPair(Index contact);
 
     /// The part of its move (0..1) after which a fast body would pass through something that was not foreseen; 1: none.
+    /// `beside` is called once, maybe by another thread.
     void stopTunnelling(std::vector<float>& allowed, std::span<const Vec2> moves, std::span<const double> turns,
-                        double dt, Pool&, Arena&);
+                        double dt, Pool&, Arena&, const std::function<void()>& beside);
 
     const Rules& rulesOf(const RigidBody& body) const { return rules_[body.rules]; }
     void setRules(RigidBody&, const Rules&);
@@ -220,7 +223,8 @@ private:
     const MaterialPair& materialsOf(Index bodyA, Index bodyB, const WorldSettings&) const;
     void makeContact(const FoundPair&, const WorldSettings&);
     bool mayMeet(Index bodyA, Index bodyB) const;
-    std::size_t nextHit(std::size_t from) const;
+    std::size_t listHits(std::size_t first, std::size_t last, Index* which) const;
+    bool expectHit(Index contact, const State&, double dt);
     bool surprise(Index body, float gain, double dt);
     bool apart(Index partA, Index partB) const;
     Relative relative(Index bodyA, Index bodyB) const;

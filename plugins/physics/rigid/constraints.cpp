@@ -238,8 +238,12 @@ void Solver<Real>::refreshIdle(Collider& collider, double dt, bool resolve, std:
         for (std::size_t i = at + Sieve::kPairs; i < std::min(at + 2 * Sieve::kPairs, due); ++i)
             collider.prefetch(block.due[i]);
         std::uint32_t near = ~collider.sift(&block.due[at], count, dt) & ((1U << count) - 1);
-        for (; near != 0; near &= near - 1)
-            block.due[left++] = block.due[at + static_cast<std::size_t>(__builtin_ctz(near))];
+        for (; near != 0; near &= near - 1, ++left) {
+            block.due[left] = block.due[at + static_cast<std::size_t>(__builtin_ctz(near))];
+            const RigidContact& c = collider.contacts()[block.due[left]];
+            prefetchToWrite(&c.normal);
+            for (const Index part : {c.partA, c.partB}) prefetch(collider.parts()[part]);
+        }
     }
     block.due.resize(left);
     collider.update(block.due, block.looks, dt);

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kMarkedABlock = 1024;  // contacts
 constexpr std::size_t kBodiesABlock = 128;
+constexpr std::size_t kHitsABlock = 256;  // contacts
 constexpr float kGivesWay = 2;
 
 float clamped(double x) { return static_cast<float>(std::clamp(x, -3e37, 3e37)); }
@@ -77,20 +78,17 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
 {
     if (!fast_) return false;
     bool grew = false;
-    for (std::size_t i = nextHit(0); i < contacts_.size(); i = nextHit(i + 1)) {
-        const Nearing& n = nearing_[i];
-        const float surprised = surprised_ ? std::max(surprise_[n.bodyA], surprise_[n.bodyB]) : 0;
-        if (hits_[i] == 0 && surprised == 0) continue;
-        const RigidContact& c = contacts_[i];
-        if (!isPlaced(places_[i]) || !c.resolve || c.count == 0) continue;
-        const float travel = std::max(hits_[i] != 0 ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
-        const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
-        if (!(a + b > 0)) continue;
-        const auto gain = [&](double share) {
-            return (1 + c.restitution) * travel * static_cast<float>(share / (a + b));
-        };
-        grew |= surprise(c.bodyA, gain(a), dt);
-        grew |= surprise(c.bodyB, gain(b), dt);
+    Index which[kHitsABlock];
+    for (std::size_t first = 0; first < contacts_.size();) {
+        const std::size_t last = std::min(first + kHitsABlock, contacts_.size()),
+                          count = listHits(first, last, which);
+        first = last;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!expectHit(which[i], state, dt)) continue;
+            // What follows may be hit by those that were surprised now.
+            grew = true, first = which[i] + std::size_t{1};
+            break;
+        }
     }
     if (!grew) return false;
     settleDrifts();
@@ -98,16 +96,46 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     return true;
 }
 
-/// The next contact of a hit; when bodies are surprised, any.
-std::size_t Collider::nextHit(std::size_t from) const
+/// Contacts of [first, last) that hit, or have a body that was surprised; how many. Which they are follows no pattern:
+/// none is jumped over.
+std::size_t Collider::listHits(std::size_t first, std::size_t last, Index* which) const
 {
-    if (surprised_) return from;
-    for (std::uint64_t eight = 0; from + sizeof eight <= hits_.size(); from += sizeof eight) {
-        std::memcpy(&eight, &hits_[from], sizeof eight);
-        if (eight != 0) break;
+    std::size_t count = 0;
+    if (!surprised_) {
+        const auto hit = [&](std::size_t contact) {
+            which[count] = static_cast<Index>(contact);
+            count += static_cast<std::size_t>(hits_[contact] != 0);
+        };
+        for (; first + sizeof(std::uint64_t) <= last; first += sizeof(std::uint64_t)) {
+            std::uint64_t eight = 0;
+            std::memcpy(&eight, &hits_[first], sizeof eight);
+            for (std::size_t i = 0; eight != 0 && i < sizeof eight; ++i) hit(first + i);
+        }
+        for (; first < last; ++first) hit(first);
+        return count;
     }
-    while (from < hits_.size() && hits_[from] == 0) ++from;
-    return from;
+    for (; first < last; ++first) {
+        const Nearing& n = nearing_[first];
+        which[count] = static_cast<Index>(first);
+        count += static_cast<std::size_t>((surprise_[n.bodyA] + surprise_[n.bodyB] > 0) + (hits_[first] != 0) > 0);
+    }
+    return count;
+}
+
+/// Whom a hit, or a body that was surprised, surprises in turn. False: nobody.
+bool Collider::expectHit(Index contact, const State& state, double dt)
+{
+    const RigidContact& c = contacts_[contact];
+    if (!isPlaced(places_[contact]) || !c.resolve || c.count == 0) return false;
+    const float surprised = surprised_ ? std::max(surprise_[c.bodyA], surprise_[c.bodyB]) : 0;
+    const float travel = std::max(hits_[contact] != 0 ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
+    const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
+    if (!(a + b > 0)) return false;
+    const auto gain = [&](double share) {
+        return (1 + c.restitution) * travel * static_cast<float>(share / (a + b));
+    };
+    const bool first = surprise(c.bodyA, gain(a), dt), second = surprise(c.bodyB, gain(b), dt);
+    return first || second;
 }
 
 void Collider::settleDrifts()
@@ -165,10 +193,10 @@ float Collider::untilCentrePasses(const RigidContact& c, const Vec2& relativeMov
 }
 
 void Collider::stopTunnelling(std::vector<float>& allowed, std::span<const Vec2> moves, std::span<const double> turns,
-                              double dt, Pool& pool, Arena& arena)
+                              double dt, Pool& pool, Arena& arena, const std::function<void()>& beside)
 {
     allowed.assign(bodies_.size(), 1.0F);
-    if (contacts_.empty()) return;
+    if (contacts_.empty()) return beside();
     const std::size_t mark = arena.mark();
     going_ = arena.take<Going>(bodies_.size());
     going_[0] = {};  // the background
@@ -189,11 +217,12 @@ void Collider::stopTunnelling(std::vector<float>& allowed, std::span<const Vec2>
     const std::size_t blocks = (contacts_.size() + kMarkedABlock - 1) / kMarkedABlock;
     if (stopsBy_.size() < blocks) stopsBy_.resize(blocks);
     const Moves all{moves, turns, dropped, dt};
-    pool.run(blocks, [&](std::size_t block) {
+    const auto find = [&](std::size_t block) {
         stopsBy_[block].clear();
         const std::size_t last = std::min(contacts_.size(), (block + 1) * kMarkedABlock);
         findStops(block * kMarkedABlock, last, all, stopsBy_[block]);
-    });
+    };
+    pool.beside(blocks, find, beside);
     // What another moving body has hit must give way to it.
     for (std::size_t block = 0; block < blocks; ++block)
         for (const Stop& stop : stopsBy_[block])

@@ -11,7 +11,7 @@ constexpr std::size_t kPrefetched = 4, kBlocksAhead = 8;
 constexpr std::size_t kFewOutcomes = 24;  // one thread is as quick as two with so few
 // Which node comes where, so that the halves of the list are those of the tree; 0: what they share.
 constexpr std::uint8_t kOrder[][std::size_t{2} << Domains::kMostDepth] = {
-    {0, 1}, {0, 2, 1, 3}, {0, 2, 4, 5, 1, 3, 6, 7}};
+    {1, 0}, {2, 0, 1, 3}, {2, 4, 5, 0, 1, 3, 6, 7}};
 
 }  // namespace
 

@@ -349,7 +349,8 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         limitMove(move, turn, dt);
         moves[i] = move, turns[i] = turn;
     });
-    if (fast) collider_.stopTunnelling(allowed_, moves, turns, dt, pool_, arena_);
+    const auto tell = [&] { noteTouches(solver.changes()); };
+    if (fast) collider_.stopTunnelling(allowed_, moves, turns, dt, pool_, arena_, tell);
     solver.eachBody([&](Index i, const BodyState<Real>& s) {
         const RigidBody& body = collider_.bodies()[i];
         if ((!body.moves && !body.kinematic) || body.asleep) return;
@@ -363,7 +364,7 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         nodes.angle[body.node] += turn;
     });
     arena_.release(mark);
-    solver.turn(nodes, [&] { noteTouches(solver.changes()); });
+    solver.turn(nodes, fast ? std::function<void()>([] {}) : tell);
 }
 
 void RigidStage::begin(State& state, const WorldSettings& settings, double h, double dt, StepStats& stats)
