@@ -80,8 +80,7 @@ bool Collider::expectHits(const State& state, const WorldSettings& settings, dou
     bool grew = false;
     Index which[kHitsABlock];
     for (std::size_t first = 0; first < contacts_.size();) {
-        const std::size_t last = std::min(first + kHitsABlock, contacts_.size()),
-                          count = listHits(first, last, which);
+        const std::size_t last = std::min(first + kHitsABlock, contacts_.size()), count = listHits(first, last, which);
         first = last;
         for (std::size_t i = 0; i < count; ++i) {
             if (!expectHit(which[i], state, dt)) continue;
@@ -131,9 +130,7 @@ bool Collider::expectHit(Index contact, const State& state, double dt)
     const float travel = std::max(hits_[contact] != 0 ? closingSpeed(c) * static_cast<float>(dt) : 0, surprised);
     const double a = state.nodes.invMass[bodies_[c.bodyA].node], b = state.nodes.invMass[bodies_[c.bodyB].node];
     if (!(a + b > 0)) return false;
-    const auto gain = [&](double share) {
-        return (1 + c.restitution) * travel * static_cast<float>(share / (a + b));
-    };
+    const auto gain = [&](double share) { return (1 + c.restitution) * travel * static_cast<float>(share / (a + b)); };
     const bool first = surprise(c.bodyA, gain(a), dt), second = surprise(c.bodyB, gain(b), dt);
     return first || second;
 }
