@@ -296,6 +296,7 @@ void ContactFinder::carryOver(const State& state, std::span<const ContactPoint> 
         if (!same && from->along >= 0 && from->along <= 1) continue;
         c.normalImpulse = from->normalImpulse;
         c.tangentImpulse = from->tangentImpulse;
+        c.along = same ? from->along : from->wall == state.walls.next[c.wall] ? 1 : 0;  // the corner it went round
         if (same) c.stepImpulse = from->stepImpulse, c.engaged = from->engaged && from->active;
     }
 }

@@ -8,6 +8,9 @@ namespace {
 constexpr double kAbsurdSpeed = 1e30, kAbsurdImpulse = 1e80;
 constexpr double kHertz = 60, kHertzPerSubstepRate = 0.25, kDampingRatio = 10;
 constexpr double kPushLengthsPerSecond = 4;  // overlaps are pushed out no faster than this many body lengths a second
+// What pushes overlaps out, and what is carried over, moves no particle more times faster than what passes at the
+// contact: a wall that is pinned or heavy at one end, and pushed beside it, would throw the other.
+constexpr double kMostLever = 2;
 constexpr double kSharpInset = 2, kBluntOverhang = 2;  // in slops
 constexpr int kRestitutionPasses = 4, kHitPasses = 12;
 constexpr double kHitSlops = 40;  // contacts closing faster than this many slops a substep are hits
@@ -87,7 +90,24 @@ double ContactSolver::effectiveMass(const ContactPoint& c, const Vec2& direction
     return inverse > 0 ? 1 / inverse : 0;
 }
 
-double ContactSolver::pushSpeed(const ContactPoint& c) const { return kPushLengthsPerSecond * c.slop / kSlopPerLength; }
+/// What an impulse changes the velocity of one of its nodes by at most, 1 / mass. The wall's ends may differ in mass.
+double ContactSolver::reaction(const ContactPoint& c) const
+{
+    const auto& inverse = state_.nodes.invMass;
+    const double along = std::clamp(c.along, 0.0, 1.0);
+    return std::max({inverse[c.nodeA], (1 - along) * inverse[c.nodeB0], along * inverse[c.nodeB1]});
+}
+
+bool ContactSolver::uneven(const ContactPoint& c) const
+{
+    return state_.nodes.invMass[c.nodeB0] != state_.nodes.invMass[c.nodeB1];
+}
+
+double ContactSolver::pushSpeed(const ContactPoint& c) const
+{
+    const double speed = kPushLengthsPerSecond * c.slop / kSlopPerLength;
+    return uneven(c) ? speed * std::min(1.0, kMostLever / (c.normalMass * reaction(c))) : speed;
+}
 
 /// Geometry as the nodes stand now. Returns for how many substeps it need not be looked at again.
 std::uint8_t ContactSolver::refresh(ContactPoint& c)
@@ -187,10 +207,16 @@ void ContactSolver::prepare()
             c.stepImpulse += c.normalImpulse;
             continue;
         }
+        const bool uneven = this->uneven(c);
+        const double before = uneven ? reaction(c) : 0;
         head.idle = refresh(c);
         if (!c.active) {
             c.normalImpulse = c.tangentImpulse = 0;
             continue;
+        }
+        if (uneven) {
+            const double share = std::min(1.0, kMostLever * before / std::max(reaction(c), 1e-300));
+            c.normalImpulse *= share, c.tangentImpulse *= share;
         }
         contacts_.active.push_back(i);
         c.keptImpulse = c.normalImpulse;

@@ -57,6 +57,8 @@ private:
     Vec2 relativeVelocity(const ContactPoint&) const;
     void applyImpulse(const ContactPoint&, const Vec2& impulse);
     double effectiveMass(const ContactPoint&, const Vec2& direction) const;
+    double reaction(const ContactPoint&) const;
+    bool uneven(const ContactPoint&) const;
     double pushSpeed(const ContactPoint&) const;
 
     State& state_;

@@ -11,31 +11,6 @@ namespace jet::physics {
 
 namespace {
 
-/// The gradient of the angle from arm a to arm b; that of the centre is minus the sum, so forces and torques sum to
-/// zero.
-struct AngleGradient {
-    Vec2 a, b;
-    bool valid;
-
-    AngleGradient(const Vec2& armA, const Vec2& armB)
-    {
-        const double lengthA = armA.squaredNorm(), lengthB = armB.squaredNorm();
-        valid = lengthA > 1e-24 && lengthB > 1e-24;
-        if (valid) a = -perpendicular(armA) / lengthA, b = perpendicular(armB) / lengthB;
-    }
-    Vec2 centre() const { return -(a + b); }
-    double compliance(double invA, double invCentre, double invB) const
-    {
-        return invA * a.squaredNorm() + invCentre * centre().squaredNorm() + invB * b.squaredNorm();
-    }
-};
-
-double angleBetween(const Vec2& armA, const Vec2& armB) { return angleOf(cross(armA, armB), armA.dot(armB)); }
-
-// Collapsing arms make an angular spring ever stiffer (as 1 / length²). Up to this multiple of the stiffness at rest is
-// inside the step's reserve; beyond it the torque is held back.
-constexpr double kStiffeningReserve = 2.0;
-
 std::size_t strideOf(std::size_t room) { return room + soft::kLanes; }
 
 constexpr double kCrush = 0.4;  // substeps: damping of crushed springs by their stiffness
@@ -146,20 +121,6 @@ void SoftSprings::watchTears(soft::Batch& batch)
     };
     if (!batch.tear.empty() || std::none_of(batch.bodies.begin(), batch.bodies.end(), tears)) return;
     batch.tear.assign(batch.blocks.count() * soft::kLanes, std::numeric_limits<float>::max());
-}
-
-void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf)
-{
-    Angular spring{nodeOf[def.a], nodeOf[def.centre], nodeOf[def.b], def.restAngle, def.ks, def.kd, 0, 0};
-    const Nodes& nodes = state.nodes;
-    const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];
-    const Vec2 armB = nodes.position[spring.b] - nodes.position[spring.centre];
-    spring.angle = def.restAngle + wrapped(angleBetween(armA, armB) - def.restAngle);
-    const AngleGradient gradient(armA, armB);
-    if (gradient.valid)
-        spring.restCompliance =
-            gradient.compliance(nodes.invMass[spring.a], nodes.invMass[spring.centre], nodes.invMass[spring.b]);
-    angular_.push_back(spring);
 }
 
 void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, double h, bool plain)
@@ -479,19 +440,6 @@ double SoftSprings::energy(const State& state, Index body, double h) const
     return held;
 }
 
-double SoftSprings::energy(const State& state, const Angular& spring, double h)
-{
-    const Nodes& nodes = state.nodes;
-    const auto strain = [&](double back) {
-        const auto arm = [&](Index end) {
-            return Vec2(nodes.position[end] - nodes.position[spring.centre] -
-                        back * (nodes.velocity[end] - nodes.velocity[spring.centre]));
-        };
-        return spring.angle + wrapped(angleBetween(arm(spring.a), arm(spring.b)) - spring.angle) - spring.restAngle;
-    };
-    return 0.5 * spring.stiffness * strain(0) * strain(h);
-}
-
 /// Bingham's body: elastic up to the yield, then the strain beyond it fades at the rate `creep`.
 ///
 /// It is the strain half way along the last move that flows. What swings under symplectic Euler holds ½ ks e e', e' the
@@ -532,53 +480,6 @@ void SoftSprings::restored()
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) torn_[body] += !alive_[i] && a_[i] != b_[i];
         anyTorn_ |= torn_[body] > 0;
     }
-}
-
-void SoftSprings::applyAngular(State& state, double h, bool backwards)
-{
-    for (std::size_t i = 0; i < angular_.size(); ++i)
-        applyAngularSpring(state, angular_[backwards ? angular_.size() - 1 - i : i], h);
-}
-
-void SoftSprings::addAngularForces(State& state)
-{
-    Nodes& nodes = state.nodes;
-    for (Angular& spring : angular_) {
-        const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];
-        const Vec2 armB = nodes.position[spring.b] - nodes.position[spring.centre];
-        const AngleGradient gradient(armA, armB);
-        if (!gradient.valid) continue;
-        spring.angle += wrapped(angleBetween(armA, armB) - spring.angle);
-        const double rate = nodes.velocity[spring.a].dot(gradient.a) +
-                            nodes.velocity[spring.centre].dot(gradient.centre()) +
-                            nodes.velocity[spring.b].dot(gradient.b);
-        const double torque = -spring.ks * (spring.angle - spring.restAngle) - spring.kd * rate;
-        nodes.force[spring.a] += torque * gradient.a;
-        nodes.force[spring.centre] += torque * gradient.centre();
-        nodes.force[spring.b] += torque * gradient.b;
-    }
-}
-
-void SoftSprings::applyAngularSpring(State& state, Angular& spring, double h)
-{
-    Nodes& nodes = state.nodes;
-    const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];
-    const Vec2 armB = nodes.position[spring.b] - nodes.position[spring.centre];
-    const AngleGradient gradient(armA, armB);
-    if (!gradient.valid) return;
-    spring.angle += wrapped(angleBetween(armA, armB) - spring.angle);
-    const double invA = nodes.invMass[spring.a], invC = nodes.invMass[spring.centre], invB = nodes.invMass[spring.b];
-    const double compliance = gradient.compliance(invA, invC, invB);
-    if (!(compliance > 0)) return;
-    const double hold = std::min(1.0, kStiffeningReserve * spring.restCompliance / compliance);
-    const double elastic = -h * spring.stiffness * hold * (spring.angle - spring.restAngle);
-    const Vec2 atCentre = gradient.centre();
-    const double rate = nodes.velocity[spring.a].dot(gradient.a) + nodes.velocity[spring.centre].dot(atCentre) +
-                        nodes.velocity[spring.b].dot(gradient.b) + compliance * elastic;
-    const double impulse = elastic - h * spring.damping / (1 + h * spring.damping * compliance) * rate;
-    nodes.velocity[spring.a] += invA * impulse * gradient.a;
-    nodes.velocity[spring.centre] += invC * impulse * atCentre;
-    nodes.velocity[spring.b] += invB * impulse * gradient.b;
 }
 
 }  // namespace jet::physics

@@ -115,6 +115,7 @@ private:
         double stiffness = 0;   // ks after softening
         double damping = 0;     // kd and what softening adds
     };
+    struct Corner;
     struct Kind {
         double ks = 0, kd = 0;
         double tearRatio = 0;  // times the rest length as drawn; 0: never

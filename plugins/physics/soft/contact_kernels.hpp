@@ -43,6 +43,7 @@ struct ContactHead {
     bool elastic = false;   // has one of the active ones restitution?
     bool bounces = false;   // is one to be thrown back?
     bool drifted = false;   // has one of the active ones moved so far that it must be looked at again?
+    bool uneven = false;    // has one a wall whose ends differ in mass?
 };
 
 struct Softness {

@@ -6,8 +6,8 @@ namespace {
 constexpr float kTouchSlops = 4;  // kTouchDepth of contact_point.hpp
 constexpr float kIdleSlops = 5, kMostIdle = 8, kFarIdle = 6;
 constexpr float kMostDrift = 1;  // slops an acting contact moves before it is looked at again
-constexpr float kPushLengthsPerSecond = 4, kSlopsPerLength = 500;  // as of contact_solver.cpp
-constexpr float kYields = 10;                                      // kYieldSlops of contact_point.hpp
+constexpr float kPushLengthsPerSecond = 4, kSlopsPerLength = 500, kMostLever = 2;  // as of contact_solver.cpp
+constexpr float kYields = 10;                                                      // kYieldSlops of contact_point.hpp
 
 /// Out of the wall, and how far the particle is along that. Units.
 struct Outward {
@@ -41,6 +41,21 @@ JET_INLINE std::uint8_t idleFor(ContactBlock& c, const Bits& active, const Eight
     // Without a branch: it would be guessed wrong often, and stop the next look.
     return static_cast<std::uint8_t>(
         _mm_cvttss_si32(_mm_max_ss(_mm_set_ss(leastOf(wait, kMostIdle)), _mm_setzero_ps())));
+}
+
+/// What an impulse there changes the velocity of one of the three particles by at most, 1 / mass.
+JET_INLINE Eight reaction(const ContactBlock& c, const Eight& place)
+{
+    return most(get(c.invPoint), most((1.0F - place) * get(c.invFirst), place * get(c.invSecond)));
+}
+
+/// The impulses carried over move no particle faster at the new place than twice what they did at the old one.
+JET_INLINE void bear(ContactBlock& c, const Eight& place)
+{
+    const Eight now = reaction(c, place), share = least(all(1), kMostLever * reaction(c, get(c.along)) / now);
+    const Bits known = now > Eight{};
+    put(c.normalImpulse, choose(known, share * get(c.normalImpulse), get(c.normalImpulse)));
+    put(c.tangentImpulse, choose(known, share * get(c.tangentImpulse), get(c.tangentImpulse)));
 }
 
 /// What an impulse changes the velocities of the three particles by. In double, so that momentum is kept.
@@ -83,6 +98,7 @@ JET_INLINE void look(ContactBlock& c, ContactHead& head, const Particles& partic
     const Eight beside = choose(thick, (along - one) * length, most(-along, along - one) * length);
     head.idle = idleFor(c, active, out.separation, approach, beside, size(slide) * length, step.h);
     head.bounces = head.drifted = head.elastic = false;
+    if (head.uneven) bear(c, place);
     put(c.along, place);
     const bool acted = head.any;
     head.any = bits(active) != 0;
@@ -169,7 +185,8 @@ JET_INLINE void solveOne(ContactBlock& c, ContactHead& head, const Particles& pa
     if constexpr (push) {
         const Bits still = get(c.still);
         const Eight slop = get(c.slop), rate = choose(still, all(step.still.biasRate), all(step.moving.biasRate));
-        const Eight fastest = -kPushLengthsPerSecond * kSlopsPerLength * slop;
+        Eight fastest = -kPushLengthsPerSecond * kSlopsPerLength * slop;
+        if (head.uneven) fastest = fastest * least(one, kMostLever / (mass * reaction(c, get(c.along))));
         const Eight bias = choose(apart, wanted, most(rate * least(zero, separation + slop), fastest));
         Eight massScale = choose(still, all(step.still.massScale), all(step.moving.massScale));
         Eight impulseScale = choose(still, all(step.still.impulseScale), all(step.moving.impulseScale));

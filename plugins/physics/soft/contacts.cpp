@@ -320,7 +320,9 @@ void Contacts::carryOver(const State& state, const Pair& before, const Pair& now
             }
             if (!source) continue;
             touch.normalImpulse = source->normalImpulse, touch.tangentImpulse = source->tangentImpulse;
+            touch.along = source->wall == state.walls.next[touch.wall] ? 1 : 0;  // the corner it went round
             if (source->wall != touch.wall) continue;
+            touch.along = source->along;
             touch.seat = std::exchange(source->seat, kNone);
             touch.stepImpulse = source->stepImpulse;
             touch.engaged = source->engaged & source->active, touch.active = source->active, touch.far = source->far;
@@ -413,6 +415,7 @@ void Contacts::fill(const State& state, const Pair& pair, const Touch& touch)
     block.far[lane] = touch.far != 0 ? -1 : 0;
     block.along[lane] = touch.along;
     heads_[touch.seat / kWide].any |= touch.active != 0;
+    heads_[touch.seat / kWide].uneven |= block.invFirst[lane] != block.invSecond[lane];
 }
 
 void Contacts::refresh(State& state, double h, double gravity)

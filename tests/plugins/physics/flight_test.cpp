@@ -32,6 +32,16 @@ SoftBodyDef bent(SoftBodyDef def)
     return def;
 }
 
+/// Around a sheet of as many rows as columns.
+void border(SoftBodyDef& def, std::uint32_t side)
+{
+    auto& ring = def.borders.emplace_back();
+    for (std::uint32_t i = 0; i + 1 < side; ++i) ring.push_back(i);
+    for (std::uint32_t i = 0; i + 1 < side; ++i) ring.push_back(side - 1 + side * i);
+    for (std::uint32_t i = 0; i + 1 < side; ++i) ring.push_back(side * side - 1 - i);
+    for (std::uint32_t i = 0; i + 1 < side; ++i) ring.push_back(side * (side - 1 - i));
+}
+
 /// A field that nothing is in: what it might push goes substep by substep.
 void forbidFlights(PhysicsWorld& world)
 {
@@ -188,11 +198,7 @@ TEST(Flight, EndsWhereSomethingIsMet)
     settings.gravity = Vec2(0, 100);
     const auto world = JetPhysics().createWorld(settings);
     SoftBodyDef def = light(16, 16, false);
-    auto& ring = def.borders.emplace_back();
-    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(i);
-    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(15 + 16 * i);
-    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(255 - i);
-    for (std::uint32_t i = 0; i < 15; ++i) ring.push_back(240 - 16 * i);
+    border(def, 16);
     const BodyHandle body = world->addSoftBody(def);
     const double top = 400;
     const BodyHandle floor = world->addRigidBody(ground(top));
@@ -205,6 +211,37 @@ TEST(Flight, EndsWhereSomethingIsMet)
         ASSERT_LT(lowest, top + 0.5) << i;
     }
     EXPECT_TRUE(met);
+}
+
+/// The last row swings down and up again once in a step: at both of its ends it is far from the floor that it meets
+/// between them.
+TEST(Flight, EndsWhereSomethingIsMetWithinAStep)
+{
+    constexpr std::uint32_t kSide = 12;
+    constexpr double kRaised = 0.25 * kCell, kBottom = (kSide - 1) * kCell, kMass = 0.1;
+    for (const double periods : {0.95, 1.0, 1.1}) {  // in a step
+        const double omega = 2 * 3.14159265358979 * periods / kStep;
+        std::vector<Vec2> places[2];
+        for (const bool flies : {true, false}) {
+            const auto world = makeWorld({0, 0});
+            SoftBodyDef def = light(kSide, kSide, false);
+            for (SpringDef& spring : def.springs) spring.ks = 0.5 * kMass * omega * omega, spring.kd = 0;
+            for (std::size_t i = 0; i < def.particles.size(); ++i) {
+                if (i < kSide * (kSide - 1))
+                    def.movable[i] = 0;
+                else
+                    def.particles[i].y() -= kRaised;
+            }
+            border(def, kSide);
+            const BodyHandle body = world->addSoftBody(def);
+            const BodyHandle floor = world->addRigidBody(ground(kBottom + 0.4 * kRaised));
+            if (!flies) forbidFlights(*world);
+            world->step(kStep);
+            EXPECT_TRUE(world->touching(body, floor)) << periods << (flies ? " in flight" : " in substeps");
+            places[flies ? 0 : 1] = placesOf(*world, body);
+        }
+        EXPECT_EQ(farthestApart(places[0], places[1]), 0) << periods;
+    }
 }
 
 }  // namespace jet::physics::test

@@ -260,6 +260,38 @@ TEST(ShapeMemory, EnergyNeverGrowsInTwentySecondsOfBouncing)
     }
 }
 
+/// What unfolds has its motion from what folding stored. Where energy is kept account of, as between ropes, that is no
+/// gain, and nothing is taken.
+TEST(ShapeMemory, ABodyOnASlackRopeUnfoldsAsItDoesWithoutOne)
+{
+    SoftBodyDef def = defaultBall({0, 0}, 30);
+    for (SpringDef& spring : def.springs) spring.kd = 0;
+    double fastest[2] = {0, 0};
+    for (const bool roped : {false, true}) {
+        auto world = makeWorld({0, 0});
+        world->addSoftBody(def);
+        if (roped) {
+            JointDef rope;
+            rope.kind = JointDef::Kind::Rope;
+            rope.a.point = {0, -500}, rope.b = {0, {0, 0}, 0};
+            rope.length = 1000;
+            world->addJoint(rope);
+        }
+        deform(*world, def, [&](const Vec2& p) { return Vec2(p.x(), -p.y()); });
+        world->step(kStep);
+        for (int i = 1; i < 120; ++i) {
+            const auto before = pointsOf(*world, 0);
+            const std::vector<Vec2> places(before.begin(), before.end());
+            world->step(kStep);
+            const auto now = pointsOf(*world, 0);
+            for (std::size_t k = 0; k < now.size(); ++k)
+                fastest[roped ? 1 : 0] = std::max(fastest[roped ? 1 : 0], (now[k] - places[k]).norm() / kStep);
+        }
+        EXPECT_GT(areaRatio(*world, 0, def), 0.5) << roped;
+    }
+    EXPECT_NEAR(fastest[1], fastest[0], 0.01 * fastest[0]);
+}
+
 TEST(ShapeMemory, WhatUnfoldingSetsFreeIsWhatFoldingStored)
 {
     // Without damping in the springs, a mirrored ball swings for long; it must not swing ever wider.

@@ -208,6 +208,35 @@ TEST(SoftEnergy, WhatFlowsWhileItSwingsInFewSubstepsGainsNothing)
     }
 }
 
+/// An arm that passes the centre turns by half a turn at once. What its spring holds then, nobody gave.
+TEST(SoftEnergy, AnAngularSpringWhoseArmPassesItsCentreGivesNoMoreThanItTook)
+{
+    constexpr double kArm = 10, kSpeed = 60;
+    for (const double ks : {1e2, 1e4, 1e6}) {
+        for (const double beside : {0.01, 0.3, 1.0}) {
+            for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+                auto world = makeWorld({0, 0});
+                SoftBodyDef def;
+                def.particles = {{kArm, 0}, {0, 0}, {beside, kArm}};
+                def.masses = {1, 1, 1};
+                def.movable = {0, 0, 1};
+                def.angularSprings = {{0, 1, 2, std::atan2(kArm, beside), ks, 0}};
+                def.common.velocity = {0, -kSpeed};
+                world->addSoftBody(def);
+                Vec2 before = def.particles[2];
+                double fastest = 0;
+                for (int i = 0; i < static_cast<int>(std::lround(2 / dt)); ++i) {
+                    world->step(dt);
+                    const Vec2 now = pointsOf(*world, 0)[2];
+                    fastest = std::max(fastest, (now - before).norm() / dt);
+                    before = now;
+                }
+                EXPECT_LT(fastest, 1.05 * kSpeed) << ks << ", " << beside << " beside it, " << dt;
+            }
+        }
+    }
+}
+
 /// A motor gives force times way, and joints beside it do not multiply that.
 TEST(SoftEnergy, WhatAMotorDrivesHasNoMoreThanItGave)
 {
