@@ -9,11 +9,14 @@
 
 #include "host/plugins/suggest.hpp"
 
+#include <jet/scene.hpp>
 #include <jet/version.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <cstdio>
+#include <limits>
 
 namespace jet::host {
 
@@ -39,6 +42,38 @@ void addGlobal(CLI::App& app, GlobalOptions& global)
     app.add_flag("--verbose", global.verbose, "Say more");
 }
 
+/// Whole numbers only; the library's own conversion takes "-1" and "" for numbers, and what is too large for the most.
+std::string seedFault(std::string& text)
+{
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [at, problem] = std::from_chars(text.data(), end, seed);
+    if (problem == std::errc() && at == end) return {};
+    return "'" + text + "' is no seed; give a whole number from 0 to " +
+           std::to_string(std::numeric_limits<std::uint64_t>::max());
+}
+
+/// As the scene's own setting may be.
+std::string timeStepFault(std::string& text)
+{
+    const PropertySpec& setting = *Scene::settingsTable().find("time-step");
+    double seconds = 0;
+    if (CLI::detail::lexical_cast(text, seconds) && setting.check(seconds)) return {};
+    return "'" + text + "' is no time of a step; give seconds from " + numberText(setting.minimum) + " to " +
+           numberText(setting.maximum);
+}
+
+/// In scripts it comes of a variable that is not set: files would go unwritten, or into the folder one is in.
+void refuseEmptyValues(CLI::App& app)
+{
+    const auto fault = [](std::string& text) {
+        return text.empty() ? std::string("is empty; give it a value, or leave it out") : std::string();
+    };
+    for (CLI::Option* option : app.get_options())
+        if (option->get_type_size_max() > 0) option->check(CLI::Validator(fault, ""));
+    for (CLI::App* command : app.get_subcommands({})) refuseEmptyValues(*command);
+}
+
 struct Parsed {
     PlayOptions play;
     ConvertOptions convert;
@@ -60,12 +95,14 @@ void addPlay(CLI::App& app, Parsed& parsed)
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1'000'000'000}));
     play->add_option("--dt", o.timeStep, "Seconds a step instead of the scene's")
         ->type_name("S")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Validator(timeStepFault, ""));
     play->add_option("--input", o.input, "Recorded keys to play back")->type_name("FILE");
     play->add_option("--snapshot", o.snapshot, "Picture of the last step, through the game's camera")->type_name("PNG");
     play->add_option("--state", o.state, "State after the last step, as JSON")->type_name("JSON");
     play->add_option("--record", o.record, "Write what was played, with a hash a second")->type_name("FILE");
-    play->add_option("--seed", o.seed, "Seed of the scripts' random numbers")->type_name("N");
+    play->add_option("--seed", o.seed, "Seed of the scripts' random numbers")
+        ->type_name("N")
+        ->check(CLI::Validator(seedFault, ""));
     play->add_option("--threads", o.threads, "Threads the physics engine may use")
         ->type_name("N")
         ->check(CLI::Range(1, 64));
@@ -211,6 +248,10 @@ std::optional<int> runCommandLine(int argc, char** argv, GlobalOptions& global, 
         ->type_name("DIR")
         ->take_all()
         ->allow_extra_args(false);
+    refuseEmptyValues(app);
+    app.failure_message([](const CLI::App* command, const CLI::Error& problem) {
+        return "error: " + CLI::FailureMessage::simple(command, problem);
+    });
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

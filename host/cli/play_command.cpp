@@ -1,6 +1,8 @@
 #include "project_access.hpp"
 #include "recorded_input.hpp"
 
+#include "host/projects/setting_place.hpp"
+
 #include <jet/format.hpp>
 #include <jet/simulation.hpp>
 
@@ -29,6 +31,8 @@ public:
             input_ = std::move(*input);
         }
         if (const auto possible = findExporter(); !possible) return possible;
+        for (const std::filesystem::path& file : {options_.state, options_.record, options_.snapshot})
+            if (const auto possible = mayWrite(file); !possible) return possible;
         if (const auto begun = begin(scene); !begun) return begun;
         const auto before = std::chrono::steady_clock::now();
         for (std::uint64_t step = 0; step < options_.steps; ++step) {
@@ -80,12 +84,22 @@ private:
         options.viewSize = Vec2(options_.width, options_.height);
         options.sceneByName = [this](std::string_view name) { return project_.scene(name); };
         auto started = Simulation::start(scene, options);
-        if (!started) return started.error();
+        if (!started) return placed(started.error(), scene);
         simulation_ = std::move(*started);
         if (auto problem = session_.problem()) return *problem;
         for (const OutputLine& line : simulation_->output()) print(line);
         simulation_->setOutputHandler([this](const OutputLine& line) { print(line); });
         return {};
+    }
+
+    /// An engine that the scene names and nobody has is told with the line that names it.
+    Error placed(Error error, const Scene& scene)
+    {
+        const auto wanted = scene.setting("physics").as<std::string>();
+        if (!error.where.file.empty() || !options_.physics.empty() || wanted.empty()) return error;
+        if (!session_.plugins().physicsEngine(wanted))
+            error.where = placeOfSetting(project_.file(), scene.name(), "physics");
+        return error;
     }
 
     // The game's own words go to stdout, troubles to stderr.
@@ -102,11 +116,26 @@ private:
         }
     }
 
-    // Asked before the run: who cannot get the picture should not wait for it.
+    // Asked before the run: who cannot get a file should not wait for it. What else may go wrong shows when it is
+    // written.
+    static Result<void> mayWrite(const std::filesystem::path& file)
+    {
+        const Location where{file.string(), 0, 0};
+        std::error_code ignored;
+        if (std::filesystem::is_directory(file, ignored)) return Error("is a folder; name a file to write", where);
+        const std::filesystem::path folder = file.parent_path();
+        if (folder.empty() || std::filesystem::is_directory(folder, ignored)) return {};
+        return Error("cannot be written: there is no folder '" + folder.string() + "'; make it or choose another",
+                     where);
+    }
+
     Result<void> findExporter()
     {
         if (options_.snapshot.empty()) return {};
         const std::string extension = extensionOf(options_.snapshot);
+        if (extension.empty())
+            return Error("the name of a picture tells its format; give it an extension, as in picture.png",
+                         Location{options_.snapshot.string(), 0, 0});
         exporter_ = session_.plugins().exporter(extension);
         if (exporter_) return {};
         return Error(session_.plugins().explain(ContributionKind::Exporter, extension),

@@ -29,6 +29,12 @@ Availability availabilityOf(const Plugin& plugin)
     return plugin.leftOut ? Availability::LeftOut : Availability::Disabled;
 }
 
+std::string withArticle(const std::string& what)
+{
+    const bool vowel = std::string_view("aeiou").find(what.front()) != std::string_view::npos;
+    return (vowel ? "an " : "a ") + what;
+}
+
 std::string sentenceFor(const Plugin& plugin, const std::string& what)
 {
     if (plugin.usable()) return "The " + what + " comes from " + plugin.title() + ".";
@@ -83,7 +89,7 @@ Provider PluginManager::whoProvides(ContributionKind kind, std::string_view id) 
         return provider;
     }
     const std::string guess = id.empty() ? std::string() : didYouMean(id, knownIds(kind));
-    provider.sentence = "No installed plugin provides " + std::string(id.empty() ? "a " : "the ") + what +
+    provider.sentence = "No installed plugin provides " + std::string(id.empty() ? withArticle(what) : "the " + what) +
                         (guess.empty() ? "; install one that does, or look at 'jet plugins list'." : guess);
     return provider;
 }

@@ -1,6 +1,8 @@
 #include "state.hpp"
 
 #include "room.hpp"
+#include "speed_limit.hpp"
+#include "told.hpp"
 
 #include <algorithm>
 
@@ -75,13 +77,31 @@ void updatePoints(State& state)
 
 namespace {
 
+// Speeds are limited where they move something; what joints and contacts make of them after that may have run away.
+
+void limitSpeeds(Nodes& nodes, Range particles)
+{
+    double turning = 0;
+    for (Index n = particles.first; n < particles.end(); ++n) limitSpeed(nodes.velocity[n], turning);
+}
+
 void readRigid(State& state, Index handle)
 {
+    Nodes& nodes = state.nodes;
     const Index node = state.bodies[handle].nodes.first;
-    state.readings.position[handle] = state.nodes.position[node];
-    state.readings.velocity[handle] = state.nodes.velocity[node];
-    state.readings.angle[handle] = state.nodes.angle[node];
-    state.readings.omega[handle] = state.nodes.omega[node];
+    if (!isFinite(nodes.velocity[node]) || !std::isfinite(std::as_const(nodes).omega[node]))
+        limitSpeed(nodes.velocity[node], nodes.omega[node]);
+    state.readings.position[handle] = nodes.position[node];
+    state.readings.velocity[handle] = nodes.velocity[node];
+    state.readings.angle[handle] = nodes.angle[node];
+    state.readings.omega[handle] = nodes.omega[node];
+}
+
+soft::CloudSums sumsOf(const State& state, const BodyRecord& body)
+{
+    const Index first = body.nodes.first;
+    return state.clouds->sums({state.nodes.position[first].data(), state.nodes.velocity[first].data(),
+                               &state.nodes.mass[first], body.soft->restArms[0].data(), body.nodes.count});
 }
 
 /// Best fit of a rigid motion: the angle that maximises sum m (R rest)·now, the rate that carries the angular momentum.
@@ -89,10 +109,11 @@ void readSoft(State& state, Index handle)
 {
     const BodyRecord& body = state.bodies[handle];
     if (body.nodes.count == 0) return;
-    const Index first = body.nodes.first;
-    const soft::CloudSums sums =
-        state.clouds->sums({state.nodes.position[first].data(), state.nodes.velocity[first].data(),
-                            &state.nodes.mass[first], body.soft->restArms[0].data(), body.nodes.count});
+    soft::CloudSums sums = sumsOf(state, body);
+    if (!std::isfinite(sums.vx) || !std::isfinite(sums.vy) || !std::isfinite(sums.momentum)) {
+        limitSpeeds(state.nodes, body.nodes);
+        sums = sumsOf(state, body);
+    }
     double& angle = state.readings.angle[handle];
     // Of what was before only the whole turns count, so that a restored state reads the same bits.
     body.soft->fit = {sums.along, sums.across};
@@ -100,7 +121,7 @@ void readSoft(State& state, Index handle)
     angle = fit + 2 * kPi * std::round((angle - fit) / (2 * kPi));
     state.readings.position[handle] = {sums.x, sums.y};
     state.readings.velocity[handle] = {sums.vx, sums.vy};
-    state.readings.omega[handle] = sums.omega();
+    state.readings.omega[handle] = told(sums.omega());
     state.readings.bounds[handle] = {Vec2(sums.lowest[0], sums.lowest[1]), Vec2(sums.greatest[0], sums.greatest[1])};
 }
 

@@ -121,6 +121,7 @@ private:
         Index index = 0;
     };
     JointAt jointAt(JointHandle) const;
+    JointState rigidJoint(Index) const;
 
     void wakeHeld(const JointDef&);
     void wakeHeld(const Anchor&);

@@ -237,6 +237,17 @@ std::span<const std::byte> opened(std::span<const std::byte> bytes, const Struct
     return state;
 }
 
+/// A seal tells of chance, not of what somebody made up.
+bool moveInNumbers(const Nodes& nodes)
+{
+    const auto all = [](const auto& values, auto&& isNumber) {
+        return std::all_of(values.begin(), values.end(), isNumber);
+    };
+    const auto number = [](double value) { return std::isfinite(value); };
+    return all(nodes.position, isFinite) && all(nodes.velocity, isFinite) && all(nodes.angle.values(), number) &&
+           all(nodes.omega.values(), number) && all(nodes.rotation.values(), isFinite);
+}
+
 }  // namespace
 
 std::vector<std::byte> World::save() const
@@ -271,6 +282,8 @@ void World::restore(std::span<const std::byte> bytes)
         for (const ContactPoint& c : contacts_.points)
             if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
         if (!softContacts_.fits(state_)) RestoreArchive::fail();
+        if (!moveInNumbers(state_.nodes))
+            checks().fail("the saved state is damaged: a place or a speed in it is no number.");
         softContacts_.restored();
         springs_.restored();
         fields_.restored();

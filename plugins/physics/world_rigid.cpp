@@ -1,5 +1,6 @@
 // Steps of simple rigid bodies alone, joints, and queries.
 #include "integrator.hpp"
+#include "told.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -115,11 +116,17 @@ World::JointAt World::jointAt(JointHandle handle) const
 JointState World::joint(JointHandle handle) const
 {
     const JointAt at = jointAt(handle);
-    if (at.soft) return softJoints_.state(state_, at.index);
-    handle = at.index;
-    const Joint& joint = rigid_.joint(handle);
+    JointState state = at.soft ? softJoints_.state(state_, at.index) : rigidJoint(at.index);
+    state.force = told(state.force), state.torque = told(state.torque), state.value = told(state.value);
+    state.pointA = told(state.pointA), state.pointB = told(state.pointB);
+    return state;
+}
+
+JointState World::rigidJoint(Index index) const
+{
+    const Joint& joint = rigid_.joint(index);
     const JointFrame frame = frameOf(joint, state_, rigid_.collider().bodies());
-    JointState state = const_cast<World*>(this)->rigid_.stateOf(handle);  // a cache of what the solver has
+    JointState state = const_cast<World*>(this)->rigid_.stateOf(index);  // a cache of what the solver has
     state.broken = joint.broken;
     state.pointA = frame.pointA;
     state.pointB = frame.pointB;

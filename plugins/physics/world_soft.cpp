@@ -1,4 +1,5 @@
 // Live changes of soft bodies and of fields, between steps.
+#include "told.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -118,7 +119,7 @@ double World::springTension(BodyHandle handle, std::uint32_t index) const
     if (state_.bodies[handle].rigid) failNotSoft(handle);
     const Range& springs = state_.bodies[handle].soft->springs;
     requireBelow("spring", index, springs.count);
-    return springs_.tension(state_, handle, springs.first + index);
+    return told(springs_.tension(state_, handle, springs.first + index));
 }
 
 }  // namespace jet::physics

@@ -2,6 +2,7 @@
 #include "contact_solver.hpp"
 #include "integrator.hpp"
 #include "soft/enclosed_area.hpp"
+#include "told.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -249,6 +250,10 @@ void World::report()
     const std::size_t others = reports_.size();
     rigid_.report(reports_, touching_);
     for (std::size_t i = others; i < reports_.size(); ++i) nameFeatures(reports_[i]);
+    // A place or a direction that is none cannot be told otherwise; that the bodies touch is, all the same.
+    std::erase_if(reports_, [](const Contact& c) { return !isFinite(c.point) || !isFinite(c.normal); });
+    for (Contact& c : reports_)
+        c.edgeParameter = told(c.edgeParameter), c.penetration = told(c.penetration), c.impulse = told(c.impulse);
     std::sort(touching_.begin(), touching_.end());
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());

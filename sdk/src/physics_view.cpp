@@ -74,7 +74,9 @@ void paintStress(const PhysicsPicture& picture, Painter& painter)
 {
     std::array<Path, kShades> shades;
     for (const PhysicsPicture::Spring& spring : picture.springs) {
-        const double part = std::clamp(spring.stress / kFullStrain, -1.0, 1.0);
+        // Any engine may tell what is no number.
+        const double stress = std::isnan(spring.stress) ? 0 : spring.stress;
+        const double part = std::clamp(stress / kFullStrain, -1.0, 1.0);
         addLine(shades[static_cast<std::size_t>(std::lround((part + 1) / 2 * (kShades - 1)))], spring.a, spring.b);
     }
     for (int i = 0; i < kShades; ++i) {

@@ -107,7 +107,8 @@ public:
         const LiveSpring& spring = live.springs[index];
         if (told_ && spring.stiffness > 0 && spring.restLength > 0) {
             try {
-                return world_.springTension(body, index) / (spring.stiffness * spring.restLength);
+                const double stress = world_.springTension(body, index) / spring.stiffness / spring.restLength;
+                if (std::isfinite(stress)) return stress;  // not where stiffness is next to nothing
             } catch (const Failure&) {
                 told_ = false;
             }

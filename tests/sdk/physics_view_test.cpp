@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace jet {
 
 namespace {
@@ -77,6 +79,20 @@ TEST(PhysicsView, StretchedSpringsAreRedAndPressedOnesBlue)
     EXPECT_EQ(red, 1);
     EXPECT_EQ(blue, 1);
     EXPECT_EQ(grey, 1);
+}
+
+/// As a spring of next to no stiffness has.
+TEST(PhysicsView, StressThatIsNoNumberIsDrawnAsNone)
+{
+    PhysicsPicture odd = picture();
+    odd.springs = {{{0, 0}, {5, 0}, std::numeric_limits<double>::quiet_NaN()}};
+    PhysicsMarks marks;
+    marks.stress = true;
+    RecordingPainter painter;
+    paintPhysics(odd, marks, painter);
+    ASSERT_EQ(painter.strokes().size(), 1U);
+    const Color c = painter.strokes()[0].color();
+    EXPECT_EQ(c.r, c.b);
 }
 
 TEST(PhysicsView, ContactsPointAlongTheirNormals)

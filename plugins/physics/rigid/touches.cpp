@@ -1,5 +1,7 @@
 #include "touches.hpp"
 
+#include "told.hpp"
+
 #include <algorithm>
 
 namespace jet::physics {
@@ -39,7 +41,7 @@ void Touches::tell(std::vector<ContactEvent>& events)
         const bool touched = before > 0, touches = before + all.begins > 0;
         if (touched == touches) continue;
         events.push_back({static_cast<BodyHandle>(all.pair >> 32), static_cast<BodyHandle>(all.pair & 0xffffffffU),
-                          touches, touches ? all.impulse : 0});
+                          touches, touches ? told(all.impulse) : 0});
     }
     changes_.clear();
     if (!counts) return;

@@ -186,6 +186,22 @@ TEST_F(HostileProjectTest, AnOutlineTooIntricateForAnEngineIsToldWithItsItemAndT
     }
 }
 
+TEST_F(HostileProjectTest, ASpringThatAnEngineRefusesIsToldWithItsNameAndTheRestPlays)
+{
+    for (const char* engine : {"jet-physics", "physics-box2d"}) {
+        copyExample("tearing");
+        std::string text = read(scene());
+        const std::string end = "116 70</path>";
+        text.replace(text.find(end), end.size(), "1e13 70</path>");
+        write(scene(), text);
+        const Outcome outcome = play(std::string("--physics ") + engine);
+        EXPECT_EQ(outcome.code, 0) << engine << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("Strong left rope")) << engine;
+        EXPECT_THAT(outcome.err, HasSubstr("It does nothing")) << engine;
+        expectWholeState();
+    }
+}
+
 }  // namespace
 
 }  // namespace jet::test

@@ -169,5 +169,81 @@ TEST_F(PlayCommandTest, ASnapshotNobodyCanMakeIsToldBeforePlaying)
     EXPECT_EQ(read("picture.count"), "2\n");
 }
 
+TEST_F(PlayCommandTest, ATimeOfAStepThatIsNoneIsRefusedInOneLine)
+{
+    writeGame();
+    for (const char* odd : {"nan", "inf", "-inf", "-0", "1e400", "1e-320", "''", "501", "0.01s"}) {
+        const Outcome run = jet("play game --physics falling --dt " + std::string(odd));
+        EXPECT_EQ(run.code, 2) << odd;
+        EXPECT_THAT(run.err, HasSubstr("is no time of a step; give seconds from 0.00001 to 1\n")) << odd;
+        EXPECT_LT(run.err.size(), 200u) << run.err;
+    }
+    EXPECT_EQ(jet("play game --physics falling --steps 1 --dt 0.001").code, 0);
+}
+
+TEST_F(PlayCommandTest, ASeedIsAWholeNumber)
+{
+    writeGame();
+    for (const char* odd : {"-1", "nan", "1.5", "''", "18446744073709551616", "99999999999999999999999"}) {
+        const Outcome run = jet("play game --physics falling --steps 1 --seed " + std::string(odd));
+        EXPECT_EQ(run.code, 2) << odd;
+        EXPECT_THAT(run.err, HasSubstr("is no seed; give a whole number")) << odd;
+    }
+    EXPECT_EQ(jet("play game --physics falling --steps 1 --seed 18446744073709551615").code, 0);
+}
+
+/// As of a variable in a script that is not set.
+TEST_F(PlayCommandTest, EmptyValuesAreRefused)
+{
+    writeGame();
+    for (const char* option : {"--scene", "--physics", "--input", "--state", "--record", "--snapshot"}) {
+        const Outcome run = jet("play game --physics falling --steps 1 " + std::string(option) + " ''");
+        EXPECT_EQ(run.code, 2) << option;
+        EXPECT_THAT(run.err, HasSubstr(std::string(option) + ": is empty; give it a value")) << option;
+    }
+    const auto before = files();
+    for (const char* command : {"convert game ''", "project new ''", "plugins explain ''", "play ''"}) {
+        const Outcome run = jet(command);
+        EXPECT_EQ(run.code, 2) << command;
+        EXPECT_THAT(run.err, HasSubstr("is empty")) << command;
+    }
+    EXPECT_EQ(files(), before);
+}
+
+/// Instead of after an hour of playing.
+TEST_F(PlayCommandTest, AFileThatCannotBeWrittenIsToldBeforePlaying)
+{
+    writeGame();
+    for (const char* option : {"--state", "--record", "--snapshot"}) {
+        const std::string name = std::string(option) == "--snapshot" ? "picture.count" : "file.json";
+        const Outcome run =
+            jet("play game --physics falling --steps 1000000000 " + std::string(option) + " none/" + name);
+        EXPECT_EQ(run.code, 1) << option;
+        EXPECT_EQ(run.err, "none/" + name +
+                               ": error: cannot be written: there is no folder 'none'; make it or choose another\n");
+        EXPECT_EQ(run.out, "") << option;
+    }
+    EXPECT_EQ(jet("play game --physics falling --steps 1000000000 --state game").err,
+              "game: error: is a folder; name a file to write\n");
+    EXPECT_THAT(jet("play game --physics falling --steps 1000000000 --snapshot picture").err,
+                HasSubstr("picture: error: the name of a picture tells its format"));
+}
+
+TEST_F(PlayCommandTest, AnEngineThatASceneNamesAndNobodyHasIsToldWithItsLine)
+{
+    writeGame();
+    write("game/two.scene", "<scene version=\"1\">\n  <settings>\n    <property id=\"background\">#ffffff</property>\n"
+                            "    <property id=\"physics\">unknown-engine</property>\n  </settings>\n</scene>\n");
+    const Outcome run = jet("play game --scene Two --steps 1");
+    EXPECT_EQ(run.code, 1);
+    EXPECT_THAT(run.err,
+                HasSubstr("game/two.scene:4:6: error: the scene cannot be played: No installed plugin provides "
+                          "the physics engine 'unknown-engine'"));
+    EXPECT_THAT(run.err, HasSubstr("Installed: falling"));
+    EXPECT_EQ(jet("play game --scene Two --steps 1 --physics falling").code, 0);
+    const Outcome other = jet("play game --scene Two --steps 1 --physics also-unknown");
+    EXPECT_THAT(other.err, testing::StartsWith("error: the scene cannot be played")) << "the line is not to blame";
+}
+
 }  // namespace
 }  // namespace jet::test
