@@ -1,4 +1,5 @@
 #include "hasher.hpp"
+#include "physics_ranges.hpp"
 #include "scene_state.hpp"
 #include "simulation_state.hpp"
 
@@ -63,7 +64,13 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     d.view.view = View{};
     d.scene = scene.clone(d.events);
     std::vector<OutputLine> messages;
-    d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+    if (const auto fits = checkMaterials(d.scene->materials()); !fits)
+        return Error("the scene cannot be played: " + fits.error().message);
+    try {
+        d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+    } catch (const Failure& failure) {
+        return Error("the scene cannot be played: " + failure.error().message);
+    }
     if (!d.world) return Error("the physics engine could not make a world for this scene");
     SceneWorldBuilder builder(*d.scene, *d.world, messages);
     builder.build();
