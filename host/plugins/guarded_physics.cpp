@@ -6,7 +6,7 @@ namespace jet::host {
 namespace {
 
 /// A world that failed is in no state to go on: the run ends with a Failure. A Failure from the world itself is a word
-/// about what it was given, and passes.
+/// about what it was given, and passes: the plugin is not at fault.
 class GuardedWorld final : public PhysicsWorld, GuardedObject<PhysicsWorld, Callback::WorldDestroy> {
     // First of all, since their types are deduced.
     template <class Fn>
@@ -44,7 +44,7 @@ public:
 
     void step(double dt) override
     {
-        if (!tell(Callback::WorldStep, [&](PhysicsWorld& w) { w.step(dt); })) throw switchedOff();
+        act(Callback::WorldStep, [&](PhysicsWorld& w) { w.step(dt); });
     }
 
     BodyHandle addSoftBody(const SoftBodyDef& def) override
@@ -270,9 +270,16 @@ public:
 
     std::unique_ptr<PhysicsWorld> createWorld(const WorldSettings& settings) override
     {
-        auto world = ask(
-            Callback::EngineCreateWorld, [&](PhysicsEngine& engine) { return engine.createWorld(settings); },
-            std::unique_ptr<PhysicsWorld>());
+        std::optional<Error> refusal;
+        std::unique_ptr<PhysicsWorld> world;
+        tell(Callback::EngineCreateWorld, [&](PhysicsEngine& engine) {
+            try {
+                world = engine.createWorld(settings);
+            } catch (const Failure& failure) {
+                refusal = failure.error();  // of these settings: another scene may play
+            }
+        });
+        if (refusal) throw Failure(*refusal);
         if (!world) return nullptr;
         return std::make_unique<GuardedWorld>(guard_, plugin_, std::move(world));
     }

@@ -1,4 +1,4 @@
-// item.torque (thesis §4.3). Springs are read-only and need no C++ (prelude.js).
+// item.torque (thesis §4.3). Springs are properties of their items, and need no C++ (prelude.js).
 #include "native.hpp"
 
 #include <jet/simulation.hpp>

@@ -2,8 +2,6 @@
 
 #include "text.hpp"
 
-#include <jet/catalog.hpp>
-#include <jet/item_type.hpp>
 #include <jet/simulation.hpp>
 
 #include <cmath>
@@ -12,22 +10,10 @@ namespace jet::duktape {
 
 namespace {
 
-// Tables of built-in types only: types of plugins store all their properties, and their catalog is not for this thread.
-const PropertySpec* specOf(const Item& item, std::string_view property)
+[[noreturn]] void complainUnknown(Native& call, const Item& item, const std::string& property)
 {
-    const ItemType* type = builtInItemType(item.type());
-    return type ? type->properties().find(property) : nullptr;
-}
-
-[[noreturn]] void complainUnknown(const Item& item, const std::string& property)
-{
-    std::string known = "name, visible, locked";
-    if (const ItemType* type = builtInItemType(item.type())) {
-        for (const PropertySpec& spec : type->properties().specs()) known += ", " + spec.id;
-    } else {
-        for (const auto& [id, value] : item.properties().entries()) known += ", " + id;
-    }
-    throw Complaint{'"' + item.name() + "\" has no property \"" + property + "\"; it has " + known};
+    throw Complaint{'"' + item.name() + "\" has no property \"" + property + "\"; it has " +
+                    call.play.properties.known(item)};
 }
 
 struct Push {
@@ -54,27 +40,23 @@ std::int64_t integer(const Native& call, duk_idx_t index)
 
 }  // namespace
 
-bool hasProperty(const Item& item, const std::string& property)
+bool hasProperty(Native& call, const Item& item, const std::string& property)
 {
-    return item.property(property).has_value() || specOf(item, property);
+    const PropertyTables::Found found = call.play.properties.find(item, property);
+    return found.spec || found.stored;
 }
 
 void pushProperty(Native& call, const Item& item, const std::string& property)
 {
-    std::optional<Value> value = item.property(property);
-    if (!value) {
-        const PropertySpec* spec = specOf(item, property);
-        if (!spec) complainUnknown(item, property);
-        value = spec->fallback;
-    }
-    std::visit(Push{call}, value->content());
+    const PropertyTables::Found found = call.play.properties.find(item, property);
+    if (!found.spec && !found.stored) complainUnknown(call, item, property);
+    std::visit(Push{call}, (found.stored ? *found.stored : found.spec->fallback).content());
 }
 
 Value propertyFrom(Native& call, const Item& item, const std::string& property, duk_idx_t index)
 {
-    const PropertySpec* spec = specOf(item, property);
-    const std::optional<Value> stored = item.property(property);
-    if (!spec && !stored) complainUnknown(item, property);
+    const auto [spec, stored] = call.play.properties.find(item, property);
+    if (!spec && !stored) complainUnknown(call, item, property);
     switch (spec ? spec->kind : stored->kind()) {
     case ValueKind::Bool: return Value(call.boolean(index));
     case ValueKind::Integer: return Value(integer(call, index));

@@ -9,7 +9,7 @@
 
 namespace jet::duktape {
 
-bool hasProperty(const Item& item, const std::string& property);
+bool hasProperty(Native& call, const Item& item, const std::string& property);
 /// Pushes the stored value, else the default. Throws Complaint for an unknown property, naming the known ones.
 void pushProperty(Native& call, const Item& item, const std::string& property);
 /// The argument as a value for that property. Throws Complaint when it is of another kind.

@@ -155,7 +155,7 @@ duk_ret_t boundingArea(Native& call)
     return 1;
 }
 
-duk_ret_t has(Native& call) { return call.give(hasProperty(self(call), call.text(0))); }
+duk_ret_t has(Native& call) { return call.give(hasProperty(call, self(call), call.text(0))); }
 
 duk_ret_t get(Native& call)
 {

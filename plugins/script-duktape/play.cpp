@@ -5,7 +5,7 @@
 namespace jet::duktape {
 
 Play::Play(Simulation& runningSimulation, const Limits& limits)
-    : simulation(runningSimulation), budget(limits), items(runningSimulation),
+    : simulation(runningSimulation), budget(limits), items(runningSimulation), properties(runningSimulation.scene()),
       gravity(runningSimulation.scene().setting("gravity").as<Vec2>())
 {
     budget.heapData()->play = this;

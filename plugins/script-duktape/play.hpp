@@ -5,6 +5,7 @@
 #include "items.hpp"
 #include "limits.hpp"
 #include "listeners.hpp"
+#include "property_tables.hpp"
 #include "script_files.hpp"
 
 #include <jet/simulation.hpp>
@@ -54,6 +55,7 @@ public:
     Simulation& simulation;
     Budget budget;
     ItemTable items;
+    PropertyTables properties;
     ListenerTable listeners;
     ScriptFiles files;
     Prototypes prototypes;

@@ -89,13 +89,13 @@
         toString: function () { return 'body of ' + this.item.name; }
     });
 
-    // A spring's values are those drawn in the editor: the physics engines build it from them when play starts.
+    // A spring's values are the properties of its item, under names of the language.
     [['ks', 'ks'], ['kd', 'kd'], ['restLength', 'rest-length'], ['tearRatio', 'tear-ratio'], ['restAngle', 'rest-angle']]
         .forEach(function (pair) {
             Object.defineProperty(kit.Spring, pair[0], {
                 enumerable: true,
                 get: function () { return this.item.has(pair[1]) ? this.item.get(pair[1]) : undefined; },
-                set: function () { throw new TypeError(pair[0] + ' of a spring cannot change while playing'); }
+                set: function (value) { this.item.set(pair[1], value); }
             });
         });
 

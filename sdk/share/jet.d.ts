@@ -83,7 +83,7 @@ interface Item {
     has(property: string): boolean;
     /** A property by its id, as the Inspector shows them. Throws for an unknown one. */
     get(property: string): any;
-    /** Sets a property of the playing copy; bodies that exist are not rebuilt. */
+    /** Sets a property of the playing copy and its world. Throws where that stays as it is while playing. */
     set(property: string, value: any): void;
     /** Null for an item without a physical body. */
     readonly body: Body | null;
@@ -139,17 +139,17 @@ interface Torque {
     setValue(value: number): void;
 }
 
-/** A spring's values as drawn; they cannot change while playing. @since 0.1 */
+/** A spring's values. Those of angular springs stay as drawn while playing. @since 0.1 */
 interface Spring {
     readonly item: Item;
     /** Stiffness. */
-    readonly ks: number;
+    ks: number;
     /** Damping. */
-    readonly kd: number;
+    kd: number;
     /** Springs: -1 is the length as drawn. */
-    readonly restLength: number | undefined;
+    restLength: number | undefined;
     /** Springs: tears at this multiple of the rest length; 0 never. */
-    readonly tearRatio: number | undefined;
+    tearRatio: number | undefined;
     /** Angular springs. */
     readonly restAngle: number | undefined;
 }

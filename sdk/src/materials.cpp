@@ -1,4 +1,6 @@
-#include <jet/materials.hpp>
+#include "physics_ranges.hpp"
+
+#include <jet/value.hpp>
 
 namespace jet {
 
@@ -47,6 +49,28 @@ bool MaterialTable::operator==(const MaterialTable& other) const
     };
     return names_ == other.names_ &&
            std::equal(pairs_.begin(), pairs_.end(), other.pairs_.begin(), other.pairs_.end(), equal);
+}
+
+Result<void> checkPair(std::string_view a, std::string_view b, const MaterialPair& pair)
+{
+    const auto fails = [&](const char* what, double value, const std::string& range) {
+        const std::string is = std::isfinite(value) ? numberText(value) : "not a number";
+        return Error("the materials '" + std::string(a) + "' and '" + std::string(b) + "': " + what + " is " + is +
+                     "; it must be from 0 to " + range);
+    };
+    if (!(pair.friction >= 0 && pair.friction <= kMostOfPhysics))
+        return fails("friction", pair.friction, numberText(kMostOfPhysics));
+    if (!(pair.restitution >= 0 && pair.restitution <= 1))
+        return fails("restitution", pair.restitution, "1, where 0 is no bounce and 1 a full one");
+    return {};
+}
+
+Result<void> checkMaterials(const MaterialTable& table)
+{
+    for (std::size_t a = 0; a < table.size(); ++a)
+        for (std::size_t b = a; b < table.size(); ++b)
+            if (auto fits = checkPair(table.names()[a], table.names()[b], table.pair(a, b)); !fits) return fits;
+    return {};
 }
 
 }  // namespace jet

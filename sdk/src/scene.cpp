@@ -1,5 +1,6 @@
 #include "effect_states.hpp"
 #include "hasher.hpp"
+#include "physics_ranges.hpp"
 #include "scene_state.hpp"
 #include "symbol_links.hpp"
 
@@ -17,7 +18,10 @@ Scene::~Scene() = default;
 const PropertyTable& Scene::settingsTable()
 {
     static const PropertyTable table{
-        vector("gravity", "Gravity", {0, 98.1}).in("units/s²").says("Acceleration of all bodies; y grows downwards."),
+        vector("gravity", "Gravity", {0, 98.1})
+            .in("units/s²")
+            .range(-kMostOfPhysics, kMostOfPhysics)
+            .says("Acceleration of all bodies; y grows downwards."),
         real("linear-damping", "Linear damping", 0).in("1/s").range(0, 1e6),
         real("angular-damping", "Angular damping", 0).in("1/s").range(0, 1e6),
         flag("apply-gravity", "Apply gravity", true),

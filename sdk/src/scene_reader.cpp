@@ -1,4 +1,5 @@
 #include "migration.hpp"
+#include "physics_ranges.hpp"
 #include "scene_fast_reader.hpp"
 #include "symbol_text.hpp"
 #include "xml_text.hpp"
@@ -81,11 +82,10 @@ private:
         }
     }
 
-    double number(const pugi::xml_node& node, const char* attribute, double minimum)
+    double number(const pugi::xml_node& node, const char* attribute)
     {
         const auto value = Value::parse(ValueKind::Real, source_.required(node, attribute));
         if (!value) source_.fail(node, std::string(attribute) + ": " + value.error().message);
-        if ((*value).as<double>() < minimum) source_.fail(node, std::string(attribute) + " must not be negative");
         return (*value).as<double>();
     }
 
@@ -120,9 +120,12 @@ private:
         };
         for (const pugi::xml_node child : node.children("pair")) {
             source_.onlyAttributes(child, {"a", "b", "friction", "restitution", "collides"});
-            table.setPair(index(child, "a"), index(child, "b"),
-                          MaterialPair{number(child, "friction", 0), number(child, "restitution", 0),
-                                       source_.boolean(child, "collides", true)});
+            const std::size_t a = index(child, "a"), b = index(child, "b");
+            const MaterialPair pair{number(child, "friction"), number(child, "restitution"),
+                                    source_.boolean(child, "collides", true)};
+            if (const auto fits = checkPair(table.names()[a], table.names()[b], pair); !fits)
+                source_.fail(child, fits.error().message);
+            table.setPair(a, b, pair);
         }
         builder_.setMaterials(std::move(table));
     }

@@ -1,4 +1,5 @@
 #include "hasher.hpp"
+#include "physics_ranges.hpp"
 #include "scene_state.hpp"
 #include "simulation_state.hpp"
 
@@ -63,12 +64,19 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     d.view.view = View{};
     d.scene = scene.clone(d.events);
     std::vector<OutputLine> messages;
-    d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+    if (const auto fits = checkMaterials(d.scene->materials()); !fits)
+        return Error("the scene cannot be played: " + fits.error().message);
+    try {
+        d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+    } catch (const Failure& failure) {
+        return Error("the scene cannot be played: " + failure.error().message);
+    }
     if (!d.world) return Error("the physics engine could not make a world for this scene");
     SceneWorldBuilder builder(*d.scene, *d.world, messages);
     builder.build();
     d.bodies = std::move(builder.bodies);
     d.actuators = std::move(builder.actuators);
+    d.parts = std::move(builder.parts);
     for (std::size_t i = 0; i < d.bodies.size(); ++i) d.bodyByItem[d.bodies[i].item.value] = i;
     d.poses.resize(d.bodies.size());
     d.posedAt.resize(d.bodies.size());
@@ -77,7 +85,7 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     bool hasScripts = false;
     d.scene->root().walk([&](const Item& item) {
         hasScripts = hasScripts || item.is<ScriptItem>();
-        if (!d.tables.contains(item.type())) d.tables.emplace(item.type(), itemTable(catalog, item.type()));
+        d.keepTables(item);
     });
     if (!hasScripts) return simulation;
     ScriptEngine* scripts = catalog.scriptEngine("");
@@ -226,25 +234,6 @@ double Simulation::random()
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
     return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-}
-
-void Simulation::setItemProperty(ItemId id, std::string_view property, Value value)
-{
-    const Item* item = d_->scene->items().find(id);
-    if (!item) throw Failure(Error("the item is not in the playing scene"));
-    if (property == "visible" || property == "locked") {
-        value = value.as<bool>();
-    } else if (property == "name") {
-        value = value.as<std::string>();
-    } else {
-        const auto table = d_->tables.find(item->type());
-        const PropertySpec* spec = table != d_->tables.end() && table->second ? table->second->find(property) : nullptr;
-        if (!spec) throw Failure(Error("'" + item->name() + "' has no property '" + std::string(property) + "'"));
-        if (spec->kind == ValueKind::Real && value.get<std::int64_t>()) value = value.as<double>();
-        spec->check(value).orThrow();
-    }
-    Item::Mutator::setProperty(const_cast<Item&>(*item), property, value);
-    if (d_->onProperty) d_->onProperty(id, property, value);
 }
 
 void Simulation::setPropertyHandler(std::function<void(ItemId, std::string_view, const Value&)> handler)

@@ -1,6 +1,8 @@
 // Plays on a thread of its own. Commands go in through a queue; immutable frames come out behind a mutex held for a
 // pointer swap only. The catalog and the edited scene are used on the owner's thread alone.
-#include "item_mutator.hpp"
+#include "known_effect.hpp"
+#include "property_place.hpp"
+#include "scene_state.hpp"
 
 #include <jet/physics_view.hpp>
 #include <jet/rewind.hpp>
@@ -251,8 +253,14 @@ struct SimulationCenter::Private {
         });
         (*simulation)->setPropertyHandler([this](ItemId item, std::string_view property, const Value& value) {
             onOwner([this, item, property = std::string(property), value] {
-                if (const Item* found = display ? display->items().find(item) : nullptr)
-                    Item::Mutator::setProperty(const_cast<Item&>(*found), property, value);
+                const Item* found = display ? display->items().find(item) : nullptr;
+                if (!found) return;
+                Catalog& catalog = display->catalog();
+                const auto tableOf = [&](const EffectInstance& instance) {
+                    const Effect* effect = knownEffect(catalog, instance);
+                    return effect ? &effect->properties() : nullptr;
+                };
+                putAt(*found, placeOf(*found, itemTable(catalog, found->type()), property, tableOf), property, value);
             });
         });
         thread = std::thread([this, s = std::move(*simulation)]() mutable { run(std::move(s)); });

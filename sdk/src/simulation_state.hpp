@@ -1,6 +1,7 @@
 // What a Simulation consists of; shared by the files that implement it.
 #pragma once
 
+#include "property_place.hpp"
 #include "world_builder.hpp"
 
 #include <jet/simulation.hpp>
@@ -19,6 +20,7 @@ struct Simulation::Private {
     std::vector<BodyBinding> bodies;
     std::unordered_map<std::uint64_t, std::size_t> bodyByItem;
     std::map<ItemId, ActuatorHandle> actuators;
+    std::map<ItemId, ItemParts> parts;
     std::map<ItemId, double> torques;
     std::unique_ptr<ScriptRuntime> scripts;
 
@@ -32,8 +34,9 @@ struct Simulation::Private {
     std::function<void(ItemId, std::string_view, const Value&)> onProperty;
     std::optional<std::string> requestedScene;
     std::uint64_t random = 1;
-    // Of the item types in the scene: asked once, on the thread that owns the catalog.
-    std::map<std::string, const PropertyTable*, std::less<>> tables;
+    // Of the scene: asked for once, on the thread that owns the catalog. Null: not installed.
+    std::map<std::string, const ItemType*, std::less<>> types;
+    std::map<std::string, const Effect*, std::less<>> effects;  // of bodies
 
     mutable std::vector<Path> poses;  // by body handle; valid where posedAt equals steps + 1
     mutable std::vector<std::uint64_t> posedAt;
@@ -67,6 +70,16 @@ struct Simulation::Private {
             binding.live->springs[s].whole = world->springAlive(binding.body, s);
         binding.liveAt = steps + 1;
     }
+
+    // Properties that change while playing; see simulation_live.cpp.
+    void keepTables(const Item& item);
+    PropertyPlace placeOf(const Item& item, std::string_view property) const;
+    std::optional<BodyDef> definitionOf(const Item& item, std::size_t effect) const;
+    void changeBody(const Item& item, std::string_view property, const Value& value);
+    void changeBody(const Item& item, std::size_t effect, const std::optional<BodyDef>& before);
+    void changeItem(const Item& item);
+    void bringBack(const Item& item);
+    void change(const Item& item, const PropertyPlace& place, std::string_view property, const Value& value);
 
     // One event a pair of bodies and step: scripts ask for more through the contact itself.
     void dispatchCollisions()

@@ -1,4 +1,5 @@
 #include "bits.hpp"
+#include "physics_ranges.hpp"
 #include "scene_state.hpp"
 #include "symbol_links.hpp"
 #include "utf8.hpp"
@@ -416,6 +417,7 @@ void Transaction::setMaterials(MaterialTable materials)
 {
     auto& d = *open().d_;
     for (const std::string& name : materials.names()) checkText("material", name);
+    checkMaterials(materials).orThrow();
     if (d.scene.materials() == materials) return;
     d.make(MaterialsChanged{d.scene.materials(), std::move(materials)});
 }

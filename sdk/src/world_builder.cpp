@@ -46,7 +46,7 @@ LiveBody liveBodyOf(const SoftBodyDef& def)
 
 }  // namespace
 
-BodyCommon SceneWorldBuilder::common(const Item& item)
+BodyCommon commonOf(const Scene& scene, const Item& item, std::string& problem)
 {
     const PropertyTable& table = builtInItemType(BodyItem::type)->properties();
     const Properties& own = item.properties();
@@ -64,10 +64,9 @@ BodyCommon SceneWorldBuilder::common(const Item& item)
     common.allowSleep = own.get("allow-sleep", table).as<bool>();
     const auto material = own.get("material", table).as<std::string>();
     if (!material.empty()) {
-        const int index = scene_.materials().find(material);
+        const int index = scene.materials().find(material);
         if (index < 0) {
-            warn(item,
-                 "the scene has no material '" + material + "'; '" + scene_.materials().names().front() + "' is used");
+            problem = "the scene has no material '" + material + "'";
         } else {
             common.material = static_cast<std::uint32_t>(index);
         }
@@ -78,7 +77,10 @@ BodyCommon SceneWorldBuilder::common(const Item& item)
 void SceneWorldBuilder::addBody(const Item& item)
 {
     std::optional<BodyDef> def;
-    const BodyCommon own = common(item);
+    std::string problem;
+    const BodyCommon own = commonOf(scene_, item, problem);
+    if (!problem.empty()) warn(item, problem + "; '" + scene_.materials().names().front() + "' is used");
+    BodyBinding binding;
     for (const EffectInstance& instance : item.effects()) {
         const Effect* effect = scene_.catalog().effect(instance.type);
         if (!effect) {
@@ -103,10 +105,10 @@ void SceneWorldBuilder::addBody(const Item& item)
             break;
         }
         def = std::move(built);
+        binding.effect = static_cast<std::size_t>(&instance - item.effects().data());
     }
     if (!def) return warn(item, "no effect builds its body; it stays as drawn");
 
-    BodyBinding binding;
     binding.item = item.id();
     binding.fixed = own.fixed;
     binding.restPath = item.path();
@@ -136,7 +138,11 @@ void SceneWorldBuilder::build()
     const BodyStates states = world_.bodies();
     for (BodyBinding& binding : bodies) binding.restPosition = states.position[binding.body];
     scene_.root().walk([&](const Item& item) {
-        if (const ItemType* type = itemTypeOf(scene_.catalog(), item.type())) type->build(item, *this);
+        const ItemType* type = itemTypeOf(scene_.catalog(), item.type());
+        if (!type) return;
+        recording_.parts = {};
+        type->build(item, *this);
+        if (!recording_.parts.parts.empty()) parts.emplace(item.id(), std::move(recording_.parts));
     });
 }
 
@@ -157,6 +163,11 @@ int treeDistance(const Item& a, const Item& b)
 }  // namespace
 
 Anchor SceneWorldBuilder::anchor(const Item& item, const Vec2& point) const
+{
+    return recording_.parts.anchors.emplace_back(anchorAt(item, point));
+}
+
+Anchor SceneWorldBuilder::anchorAt(const Item& item, const Vec2& point) const
 {
     const std::size_t here = order_.at(item.id().value);
     Anchor anchor{kNoHandle, point};

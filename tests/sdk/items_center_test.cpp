@@ -215,6 +215,12 @@ const std::vector<Refusal>& refusals()
         {"NameWithNul", "NUL", [](auto& e, auto&, auto& s) { e.set(s, "name", std::string("a\0b", 3)); }},
         {"VisibleAsText", "true or false", [](auto& e, auto&, auto& s) { e.set(s, "visible", "yes"); }},
         {"SceneValueOutOfRange", "must be from", [](auto& e, auto&, auto&) { e.setScene("time-step", 0.0); }},
+        {"RestitutionAboveOne", "the materials 'ice' and 'ice': restitution is 2",
+         [](auto& e, auto&, auto&) {
+             MaterialTable table("ice");
+             table.setPair(0, 0, {0.5, 2, true});
+             e.setMaterials(table);
+         }},
         {"SceneValueNaN", "finite", [](auto& e, auto&, auto&) { e.setScene("gravity", Vec2(kNaN, 0)); }},
         {"EffectValueOutOfRange", "must be from", [](auto& e, auto&, auto& s) { e.setEffect(s, 0, "width", 1000.0); }},
         {"EffectThatIsNotThere", "no effect number 5",

@@ -248,7 +248,17 @@ const std::vector<Wrong>& wrongs()
          "there is no material 'b'"},
         {"NegativeFriction",
          "<materials><material name=\"a\"/><pair a=\"a\" b=\"a\" friction=\"-1\" restitution=\"0\"/></materials>",
-         "friction must not be negative"},
+         "level.scene:2:33: error: the materials 'a' and 'a': friction is -1; it must be from 0 to 1e+15"},
+        {"FrictionNoEngineComputesWith",
+         "<materials><material name=\"a\"/>\n<pair a=\"a\" b=\"a\" friction=\"1e40\" restitution=\"0\"/></materials>",
+         "level.scene:3:2: error: the materials 'a' and 'a': friction is 1e+40; it must be from 0 to"},
+        {"RestitutionAboveOne",
+         "<materials><material name=\"a\"/><material name=\"ice\"/>\n"
+         "<pair a=\"a\" b=\"ice\" friction=\"1\" restitution=\"2\"/></materials>",
+         "level.scene:3:2: error: the materials 'a' and 'ice': restitution is 2; it must be from 0 to 1, where 0 is "
+         "no"},
+        {"GravityNoEngineComputesWith", "<settings><property id=\"gravity\">0 1e40</property></settings>",
+         "level.scene:2:12: error: Property \"gravity\" must be from"},
         {"NotUtf8", item("", "type=\"shape\" id=\"1\" name=\"\xc3\x28\""),
          "level.scene:2:33: error: this is not UTF-8"},
         {"OverlongUtf8", item("", "type=\"shape\" id=\"1\" name=\"\xc0\x80\""), "this is not UTF-8"},

@@ -109,7 +109,8 @@ public:
 
     /// Deterministic random number in [0, 1).
     double random();
-    /// Changes a property while playing, on the copy only (live tuning); bodies are not rebuilt.
+    /// Changes a property of an item, or of a body's effects, while playing: in this run only, and from the next step
+    /// on. Throws Failure when it cannot change while playing, with the reason; then nothing has changed.
     void setItemProperty(ItemId item, std::string_view property, Value value);
 
     /// Called for each such change, on the simulation's thread.

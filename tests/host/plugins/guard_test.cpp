@@ -197,5 +197,62 @@ INSTANTIATE_TEST_SUITE_P(Guard, PlayCallbackTest,
                                          "ItemType::build", "ScriptEngine::createRuntime", "ScriptRuntime::run",
                                          "ScriptRuntime::dispatch", "ScriptRuntime::listensTo"));
 
+TEST_F(GuardTest, AnEngineThatRefusesAWorldOrAStepIsNotAtFault)
+{
+    for (const char* callback : {"PhysicsEngine::createWorld", "PhysicsWorld::step"}) {
+        fail(std::string(callback) + " refuses");
+        std::string refused;
+        auto simulation = Simulation::start(*scene, {});
+        try {
+            for (int i = 0; simulation && i < 10; ++i) (*simulation)->step();
+        } catch (const Failure& failure) {
+            refused = failure.what();
+        }
+        if (!simulation) refused = simulation.error().message;
+        EXPECT_THAT(refused, HasSubstr("no such world")) << callback;
+        EXPECT_TRUE(problems.empty()) << problems[0];
+        ::unsetenv("JET_TEST_THROW");
+        auto next = Simulation::start(*scene, {});
+        ASSERT_TRUE(next) << next.error().message;
+        for (int i = 0; i < 10; ++i) (*next)->step();
+    }
+    EXPECT_NE(manager->plugin("org.jet.test.throws-inside")->state, PluginState::Faulted);
+}
+
+/// Those that JET brings, as far as they were built.
+class EngineRefusalTest : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(EngineRefusalTest, LeavesTheEngineToTheNextScene)
+{
+    const auto [plugin, id] = GetParam();
+    const auto shipped = std::filesystem::path(JET_BINARY_DIR) / "lib/jet/plugins" / plugin;
+    if (!std::filesystem::exists(shipped)) GTEST_SKIP() << "built without " << plugin;
+    test::PluginFolder folder;
+    std::filesystem::create_directory_symlink(shipped, folder.path() / plugin);
+    PluginOptions options;
+    options.searchPath = {folder.path()};
+    PluginManager manager(options);
+    std::vector<std::string> problems;
+    manager.setProblemHandler([&](const PluginProblem& p) { problems.push_back(p.message); });
+    manager.scan();
+    PhysicsEngine* engine = manager.physicsEngine(id);
+    ASSERT_NE(engine, nullptr);
+    WorldSettings settings;
+    settings.materials[0].restitution = 2;
+    EXPECT_THROW((void)engine->createWorld(settings), Failure);
+    settings.materials[0].restitution = 1;
+    const auto world = engine->createWorld(settings);
+    ASSERT_NE(world, nullptr);
+    EXPECT_THROW(world->step(1000), Failure);
+    EXPECT_NO_THROW(world->step(1.0 / 60));
+    EXPECT_NE(engine->createWorld(settings), nullptr);
+    EXPECT_TRUE(problems.empty()) << problems[0];
+    EXPECT_NE(manager.plugin(plugin)->state, PluginState::Faulted);
+}
+
+INSTANTIATE_TEST_SUITE_P(Guard, EngineRefusalTest,
+                         testing::Values(std::pair("org.jet.physics", "jet-physics"),
+                                         std::pair("org.jet.physics-box2d", "physics-box2d")));
+
 }  // namespace
 }  // namespace jet::host

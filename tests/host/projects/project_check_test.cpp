@@ -256,6 +256,21 @@ TEST_F(ProjectCheckTest, WhatCannotBeMendedIsToldAndNothingIsWritten)
     EXPECT_THAT(texts(repair()), Contains(HasSubstr("has format version 9")));
 }
 
+TEST_F(ProjectCheckTest, MaterialsAndGravityNoEngineComputesWithAreTold)
+{
+    writeGame(
+        "<materials><material name=\"ice\"/><pair a=\"ice\" b=\"ice\" friction=\"0\" restitution=\"2\"/></materials>");
+    CheckReport found = check();
+    EXPECT_FALSE(found.isFine());
+    EXPECT_THAT(found.problem.text(), HasSubstr("One.scene:"));
+    EXPECT_THAT(found.problem.text(),
+                HasSubstr("the materials 'ice' and 'ice': restitution is 2; it must be from 0 to"));
+    writeGame("<settings><property id=\"gravity\">0 1e40</property></settings>");
+    found = repair();
+    EXPECT_TRUE(found.isFine()) << found.problem.text();
+    EXPECT_THAT(texts(found), ElementsAre(HasSubstr("the property 'gravity' is '0 1e40'")));
+}
+
 TEST_F(ProjectCheckTest, WhenAFileCannotBeWrittenTheOthersArePutBack)
 {
     write("game/project.jet", "<jet-project version=\"1\" name=\"G\"><filter name=\"F\"><scene name=\"A\" "

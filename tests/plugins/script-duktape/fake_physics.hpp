@@ -52,6 +52,8 @@ public:
     void setOmega(BodyHandle body, double omega) override { omega_.at(body) = omega; }
     void setPosition(BodyHandle body, const Vec2& centre) override { move(body, centre - position_.at(body)); }
     void setGravity(const Vec2& value) override { gravity = value; }
+    void setBody(BodyHandle, const BodyCommon&) override {}
+    void setSpring(ActuatorHandle, double, double, double, double) override {}
     bool springAlive(BodyHandle, std::uint32_t) const override { return true; }
 
     // Exact: any difference in the last bit of any state changes it.

@@ -84,10 +84,10 @@ TEST_F(ScriptItemsTest, PropertiesAreReadAndSetByTheirIds)
         print(b.get('fixed'), b.get('gravity-scale'), b.get('velocity'), b.get('name'), b.has('fixed'), b.has('ks'));
         b.set('gravity-scale', 2.5);
         b.set('velocity', new Vec2d(1, 2));
-        b.set('material', 'ice');
-        print(b.get('gravity-scale'), b.get('velocity').y, b.get('material'));
+        b.set('group', 7);
+        print(b.get('gravity-scale'), b.get('velocity').y, b.body.velocity.y, b.get('group'));
     )"),
-              (Lines{"false 1 (0, 0) Ball true false", "2.5 2 ice"}));
+              (Lines{"false 1 (0, 0) Ball true false", "2.5 2 2 7"}));
 }
 
 TEST_F(ScriptItemsTest, WrongPropertiesAreRefusedWithTheReason)
@@ -112,16 +112,17 @@ TEST_F(ScriptItemsTest, WrongPropertiesAreRefusedWithTheReason)
                "TypeError: getTopGroup: expected an item, got an object"}));
 }
 
-TEST_F(ScriptItemsTest, ASpringTellsItsValuesAndRefusesToChangeThem)
+TEST_F(ScriptItemsTest, ASpringTellsItsValuesAndTakesOthers)
 {
     const Item& spring = add("spring", "Spring", Path::line({0, 0}, {10, 0}), nullptr);
     set(spring, "ks", 42.0);
     EXPECT_EQ(run(R"(
         var s = script.getPriorSibling().spring;
         print(s.ks, s.kd, s.restLength, s.tearRatio, s.restAngle, s.item);
-        try { s.ks = 1; } catch (e) { print(e); }
+        s.restLength = 7;
+        try { s.ks = -1; } catch (e) { print(s.item.get('rest-length'), s.ks, /must be from/.test(e)); }
     )"),
-              (Lines{"42 0.1 -1 0 undefined Spring", "TypeError: ks of a spring cannot change while playing"}));
+              (Lines{"42 0.1 -1 0 undefined Spring", "7 42 true"}));
 }
 
 }  // namespace jet::test

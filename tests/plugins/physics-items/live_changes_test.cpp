@@ -1,0 +1,304 @@
+// What is changed while a scene plays counts for the world, with either engine, and for nothing but this run.
+#include "support/test_catalog.hpp"
+
+#include <jet/simulation.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace jet::test {
+
+namespace {
+
+using testing::HasSubstr;
+
+class LiveScene : public testing::Test {
+protected:
+    explicit LiveScene(const char* engine = "jet-physics") : scene_("Scene", events_, catalog_)
+    {
+        options_.physics = engine;
+        hasEngine_ = options_.physics == "jet-physics";
+        if (hasEngine_) return;
+        try {
+            catalog_.load("org.jet.physics-box2d");
+            hasEngine_ = true;
+        } catch (const Failure&) {  // built without it
+        }
+    }
+    ItemId add(const char* type, Path path, const Properties& properties = {}, const char* effect = nullptr)
+    {
+        auto edit = scene_.items().begin("Add");
+        const Item& item = edit.add(type, scene_.root(), std::move(path));
+        if (effect) edit.addEffect(item, effect);
+        for (const auto& [id, value] : properties.entries()) edit.set(item, id, value);
+        edit.commit();
+        return item.id();
+    }
+    ItemId box(const Box& bounds, const Properties& properties = {})
+    {
+        return add("shape", Path::rectangle(bounds), properties, "in-path-rigid-body");
+    }
+    void setScene(const char* id, Value value)
+    {
+        auto edit = scene_.items().begin("Scene");
+        edit.setScene(id, std::move(value));
+        edit.commit();
+    }
+    static Path line(std::initializer_list<Vec2> points) { return Path::polygon(std::vector<Vec2>(points), false); }
+    Simulation& play(double seconds)
+    {
+        if (!simulation_) simulation_ = Simulation::start(scene_, options_).orThrow();
+        const double until = simulation_->time() + seconds;
+        while (simulation_->time() < until - 1e-9) simulation_->step();
+        return *simulation_;
+    }
+    void set(ItemId item, const char* property, Value value) { simulation_->setItemProperty(item, property, value); }
+    std::string refusal(ItemId item, const char* property, Value value)
+    {
+        try {
+            set(item, property, std::move(value));
+        } catch (const Failure& failure) {
+            return failure.error().message;
+        }
+        return "accepted";
+    }
+    Vec2 velocity(ItemId item) { return simulation_->world().bodies().velocity[simulation_->bodyOf(item)]; }
+    double omega(ItemId item) { return simulation_->world().bodies().omega[simulation_->bodyOf(item)]; }
+    Vec2 place(ItemId item) { return simulation_->world().bodies().position[simulation_->bodyOf(item)]; }
+
+    TestCatalog catalog_{"org.jet.physics", "org.jet.items.physics", "org.jet.effect.in-path-rigid-body",
+                         "org.jet.effect.in-path-body", "org.jet.script-duktape"};
+    EventsCenter events_;
+    Scene scene_;
+    SimulationOptions options_;
+    std::unique_ptr<Simulation> simulation_;
+    bool hasEngine_ = false;
+};
+
+class LiveChanges : public LiveScene, public testing::WithParamInterface<const char*> {
+protected:
+    LiveChanges() : LiveScene(GetParam()) {}
+    void SetUp() override
+    {
+        if (!hasEngine_) GTEST_SKIP() << "built without Box2D";
+    }
+    /// A disc about the origin that a motor of the background turns.
+    ItemId motor(double speed)
+    {
+        return add("joint", line({{100, 0}, {0, 0}, {0, 0}}),
+                   {{"kind", "revolute"}, {"driven", true}, {"motor-speed", speed}, {"max-torque", 1e6}});
+    }
+    /// Seconds from one turning point of the body's way along x to the next but one.
+    double period(ItemId body)
+    {
+        std::vector<double> turns;
+        double before = velocity(body).x();
+        while (turns.size() < 5) {
+            const double at = simulation_->time();
+            simulation_->step();
+            const double now = velocity(body).x();
+            if (before * now < 0) turns.push_back(at + simulation_->timeStep() * before / (before - now));
+            before = now;
+        }
+        return (turns[4] - turns[0]) / 2;
+    }
+};
+
+TEST_P(LiveChanges, AScriptTurnsAMotorRoundAndTheWheelTurnsTheOtherWay)
+{
+    const ItemId wheel = box({{-20, -20}, {20, 20}});
+    const ItemId axle = motor(4);
+    auto edit = scene_.items().begin("Script");
+    edit.set(*scene_.items().find(axle), "name", "Axle");
+    edit.commit();
+    add("script", {},
+        {{"code", "var axle = ItemUtils.getItemByName('Axle', ItemUtils.getTopGroup(script));\n"
+                  "JetSystem.addEventListener('onStep', function (e) {\n"
+                  "    if (e.step === 60) axle.set('motor-speed', -2);\n"
+                  "});"}});
+    play(1);
+    EXPECT_NEAR(omega(wheel), 4, 0.04);
+    play(1);
+    EXPECT_NEAR(omega(wheel), -2, 0.02);
+    EXPECT_TRUE(simulation_->output().empty());
+    set(axle, "driven", false);
+    play(1);
+    EXPECT_NEAR(omega(wheel), -2, 0.02) << "nothing drives or brakes it";
+    set(axle, "driven", true);
+    set(axle, "motor-speed", 0.0);
+    play(1);
+    EXPECT_NEAR(omega(wheel), 0, 0.02);
+}
+
+TEST_P(LiveChanges, WhatWeighsLessThanNothingRises)
+{
+    const ItemId body = box({{-10, -10}, {10, 10}});
+    play(1);
+    EXPECT_NEAR(velocity(body).y(), 98.1, 1e-3);
+    set(body, "gravity-scale", -1.0);
+    play(2);
+    EXPECT_NEAR(velocity(body).y(), -98.1, 1e-3);
+    set(body, "velocity", Vec2(3, 0));
+    EXPECT_NEAR(velocity(body).x(), 3, 1e-5);
+}
+
+TEST_P(LiveChanges, ASpringOfFourTimesTheStiffnessSwingsTwiceAsFast)
+{
+    setScene("gravity", Vec2(0, 0));
+    setScene("time-step", 1.0 / 240);  // Box2D's springs, forces of one step, are true for short ones
+    const ItemId body = box({{50, -10}, {70, 10}});
+    const ItemId spring = add("spring", line({{0, 0}, {60, 0}}), {{"ks", 100.0}, {"kd", 0.0}, {"rest-length", 50.0}});
+    play(0.1);
+    const double before = period(body);
+    EXPECT_NEAR(before, 2 * 3.14159265 / 10, 0.02);  // of mass 1: 2 pi / sqrt(ks / m)
+    set(spring, "ks", 400.0);
+    EXPECT_NEAR(before / period(body), 2, 0.04);
+}
+
+TEST_P(LiveChanges, ARestLengthBelowNullIsThatOfTheDrawing)
+{
+    setScene("gravity", Vec2(0, 0));
+    const ItemId body = box({{50, -10}, {70, 10}});
+    const ItemId spring = add("spring", line({{0, 0}, {60, 0}}), {{"ks", 100.0}, {"kd", 10.0}});
+    play(1);
+    for (const auto& [length, wanted] : {std::pair(40.0, 40.0), std::pair(-1.0, 60.0)}) {
+        set(spring, "rest-length", length);
+        play(4);
+        EXPECT_NEAR(place(body).x(), wanted, 0.1) << length;
+    }
+}
+
+TEST_P(LiveChanges, AMaterialIsThatOfTheMoment)
+{
+    auto edit = scene_.items().begin("Ice");
+    MaterialTable table;
+    table.add("ice");
+    table.setPair(0, 1, {0, 0, true});
+    edit.setMaterials(table);
+    edit.commit();
+    box({{-500, 20}, {500, 60}}, {{"fixed", true}});
+    const ItemId body = box({{-210, 0}, {-170, 20}}, {{"velocity", Vec2(60, 0)}});
+    play(0.25);
+    const double slowed = velocity(body).x();
+    EXPECT_LT(slowed, 50);
+    set(body, "material", "ice");
+    play(0.5);
+    EXPECT_NEAR(velocity(body).x(), slowed, 0.5);
+    EXPECT_THAT(refusal(body, "material", "snow"), HasSubstr("'material' stays as it is while playing: the scene has"));
+    EXPECT_EQ(*simulation_->scene().items().find(body)->properties().find("material"), Value("ice"));
+}
+
+TEST_P(LiveChanges, AMassIsThatOfTheMoment)
+{
+    setScene("gravity", Vec2(0, 0));
+    const ItemId body = box({{-10, -10}, {10, 10}});
+    play(0.1);
+    set(body, "mass", 4.0);
+    simulation_->world().applyImpulse(simulation_->bodyOf(body), Vec2(8, 0));
+    play(0.1);
+    EXPECT_NEAR(velocity(body).x(), 2, 1e-5);
+}
+
+TEST_P(LiveChanges, WhatCannotChangeIsNamedAndLeftAlone)
+{
+    const ItemId wheel = box({{-20, -20}, {20, 20}});
+    const ItemId axle = motor(4);
+    const ItemId angular = add("rspring", line({{0, -100}, {100, 0}, {0, 0}}), {{"ks", 10.0}});
+    play(0.5);
+    const auto hash = simulation_->hash();
+    EXPECT_THAT(refusal(axle, "kind", "weld"), HasSubstr("'kind' stays as it is while playing: a joint stays"));
+    EXPECT_THAT(refusal(axle, "lower", 5.0), HasSubstr("'lower' stays as it is while playing: "));
+    EXPECT_THAT(refusal(angular, "ks", 20.0), HasSubstr("'ks' stays as it is while playing: angular springs"));
+    EXPECT_THAT(refusal(wheel, "fixed", true), HasSubstr("'fixed' stays as it is while playing: "));
+    EXPECT_EQ(simulation_->hash(), hash);
+    const auto stored = [&](ItemId item, const char* id) {
+        const Value* value = simulation_->scene().items().find(item)->properties().find(id);
+        return value ? *value : Value();
+    };
+    EXPECT_EQ(stored(axle, "kind"), Value("revolute"));
+    EXPECT_EQ(stored(axle, "lower").as<double>(), 0);
+    EXPECT_EQ(stored(angular, "ks"), Value(10.0));
+    play(0.5);
+    EXPECT_NEAR(omega(wheel), 4, 0.2);
+}
+
+TEST_P(LiveChanges, TheNextRunIsThatOfTheScene)
+{
+    const ItemId body = box({{-20, -20}, {20, 20}});
+    const ItemId axle = motor(4);
+    const auto asDrawn = play(1).hash();
+    for (int run = 0; run < 2; ++run) {
+        simulation_.reset();
+        play(0.5);
+        set(axle, "motor-speed", -2.0);
+        set(body, "mass", 3.0);
+        EXPECT_NE(play(0.5).hash(), asDrawn);
+        simulation_.reset();
+        EXPECT_EQ(play(1).hash(), asDrawn);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, LiveChanges, testing::Values("jet-physics", "physics-box2d"));
+
+TEST_F(LiveScene, FieldsPushAsTheyAreSet)
+{
+    const ItemId body = box({{90, -10}, {110, 10}}, {{"gravity-scale", 0.0}});
+    const ItemId radial =
+        add("force-field", Path::rectangle({{-500, -500}, {500, 500}}), {{"kind", "radial"}, {"strength", -50.0}});
+    const ItemId wind = add("force-field", {}, {{"kind", "directional"}, {"vector", Vec2(0, 0)}});
+    play(0.5);
+    EXPECT_NEAR(velocity(body).x(), -25, 0.5);
+    set(radial, "strength", 50.0);
+    play(0.5);
+    EXPECT_NEAR(velocity(body).x(), 0, 0.5);
+    set(radial, "strength", 0.0);
+    set(wind, "vector", Vec2(0, 30));
+    play(0.5);
+    EXPECT_NEAR(velocity(body).y(), 15, 0.5);
+    EXPECT_THAT(refusal(wind, "kind", "drag"), HasSubstr("'kind' stays as it is while playing: a field stays"));
+}
+
+TEST_F(LiveScene, SoftBodiesSwellAndStiffen)
+{
+    setScene("gravity", Vec2(0, 0));
+    const ItemId ball = add("shape", Path::ellipse({{-50, -50}, {50, 50}}), {}, "in-path-body");
+    const auto area = [&] { return std::abs(simulation_->pose(*simulation_->scene().items().find(ball))->area()); };
+    play(1);
+    const double atRest = area();
+    set(ball, "pressure", 3.0);
+    set(ball, "kd", 3.0);
+    play(3);
+    const double swollen = area();
+    EXPECT_GT(swollen, 1.05 * atRest);
+    set(ball, "ks", 1000.0);
+    play(3);
+    EXPECT_NEAR(area(), atRest, 0.2 * (swollen - atRest)) << "a hundred times stiffer";
+    set(ball, "mass", 5.0);
+    simulation_->world().applyImpulse(simulation_->bodyOf(ball), Vec2(10, 0));
+    play(0.1);
+    EXPECT_NEAR(velocity(ball).x(), 2, 1e-6);
+    const auto hash = simulation_->hash();
+    EXPECT_THAT(refusal(ball, "cell-size", Vec2(5, 5)),
+                HasSubstr("'cell-size' stays as it is while playing: it decides what the body is made of"));
+    EXPECT_EQ(simulation_->hash(), hash);
+}
+
+TEST_F(LiveScene, ScriptsReadAndSetWhatTheEffectOfABodyHas)
+{
+    box({{-10, -10}, {10, 10}});
+    add("script", {},
+        {{"code", "var box = script.getPriorSibling();\n"
+                  "print(box.has('mass'), box.get('mass'), box.has('ks'));\n"
+                  "box.set('mass', 2);\n"
+                  "print(box.get('mass'));\n"
+                  "try { box.set('fixed', true); } catch (e) { print(e); }"}});
+    play(0.1);
+    ASSERT_EQ(simulation_->output().size(), 3u);
+    EXPECT_EQ(simulation_->output()[0].text, "true 1 false");
+    EXPECT_EQ(simulation_->output()[1].text, "2");
+    EXPECT_THAT(simulation_->output()[2].text, HasSubstr("'fixed' stays as it is while playing"));
+}
+
+}  // namespace
+
+}  // namespace jet::test
