@@ -30,9 +30,9 @@ public:
     virtual std::string label() const = 0;
     /// Draws what the effects do not: helpers while editing. Called after the item's effects.
     virtual void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const;
-    /// Called for each item when play starts, after all bodies are built; and again, with the same calls expected in the
-    /// same order, when a property of it is changed while playing: what these calls added is then changed to what they
-    /// say now. One that adds more, less or other things then is refused, and nothing is changed.
+    /// Called for each item when play starts, after all bodies are built; and again, with the same calls expected in
+    /// the same order, when a property of it is changed while playing: what these calls added is then changed to what
+    /// they say now. One that adds more, less or other things then is refused, and nothing is changed.
     virtual void build(const Item& item, WorldBuilder& builder) const;
 };
 
