@@ -1,5 +1,6 @@
 // jet-bench-physics: JET beside Debian's Box2D 2.4.1, Chipmunk 7 and Bullet's soft bodies, the same scenes, the same
 // step, one thread, no sleeping; CPU time of a step and the quality of what came out. `--help` tells the options.
+#include "bench/physics/bounds.hpp"
 #include "bench/physics/contestant.hpp"
 
 #include <CLI/CLI.hpp>
@@ -60,6 +61,18 @@ std::vector<Entry> entries(const Scene& scene, const Options& options)
 
 bool isJet(const std::string& key) { return key.rfind("jet", 0) == 0; }
 
+/// What came of a scene, or of all.
+struct Outcome {
+    bool hasResult = true;  // of JET
+    std::size_t bounds = 0, broken = 0;
+
+    void add(const Outcome& other)
+    {
+        hasResult = hasResult && other.hasResult;
+        bounds += other.bounds, broken += other.broken;
+    }
+};
+
 void report(const Scene& scene, const std::string& label, const std::string& key, const Contestant& one, double jet,
             nlohmann::ordered_json& json)
 {
@@ -88,8 +101,22 @@ void report(const Scene& scene, const std::string& label, const std::string& key
     std::printf(" %5zu B/body  %s\n", heap, result.quality.dump().c_str());
 }
 
-/// Did JET come through?
-bool compare(const Scene& scene, const Options& options, nlohmann::ordered_json& scenes)
+/// JET's row, and what it says to the bounds; the others' quality is theirs.
+Outcome judge(const Scene& scene, const Entry& entry, const Contestant& one, nlohmann::ordered_json& json)
+{
+    Outcome outcome;
+    outcome.hasResult = one.problem().empty();
+    if (!outcome.hasResult) return outcome;
+    const std::vector<std::string> broken = brokenBounds(scene.name, one.result().quality);
+    for (const std::string& bound : broken) {
+        std::printf("%-22s %-12s BREAKS A BOUND: %s\n", scene.name.c_str(), entry.label.c_str(), bound.c_str());
+        json["broken_bounds"].push_back(entry.key + ": " + bound);
+    }
+    outcome.bounds = boundsOf(scene.name), outcome.broken = broken.size();
+    return outcome;
+}
+
+Outcome compare(const Scene& scene, const Options& options, nlohmann::ordered_json& scenes)
 {
     const std::vector<Entry> all = entries(scene, options);
     std::vector<std::unique_ptr<Contestant>> contestants;
@@ -106,16 +133,16 @@ bool compare(const Scene& scene, const Options& options, nlohmann::ordered_json&
                                    {"bodies", scene.bodies.size()},
                                    {"steps", scene.steps},
                                    {"simd", options.jet.simd.empty() ? widestSimd() : options.jet.simd}};
-    bool fine = true;
+    Outcome outcome;
     double jet = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].key == "jet" && contestants[i]->problem().empty()) jet = contestants[i]->result().median;
         report(scene, all[i].label, all[i].key, *contestants[i], jet, json);
-        fine = fine && !(isJet(all[i].key) && !contestants[i]->problem().empty());
+        if (isJet(all[i].key)) outcome.add(judge(scene, all[i], *contestants[i], json));
     }
     std::fflush(stdout);
     scenes.push_back(json);
-    return fine;
+    return outcome;
 }
 
 int check(const std::string& folder)
@@ -150,7 +177,8 @@ void declare(CLI::App& app, Options& options)
     app.add_option("--summary-json", options.summary, "Write all of it to this file");
     app.footer(
         "The engines of a scene take turns, 30 steps each, every one in a process of its own: one that aborts has\n"
-        "no result, and the others go on. Exit code 1: JET has no result; 2: bad usage.");
+        "no result, and the others go on. Exit code 1: JET has no result; 2: bad usage; 3: JET breaks a bound of\n"
+        "quality, whatever the times (the scenes' bounds: tests/bench/physics/bounds.cpp).");
 }
 
 int run(Options& options)
@@ -158,12 +186,12 @@ int run(Options& options)
     if (!options.check.empty()) return check(options.check);
     if (options.scenes.empty() && options.files.empty()) options.scenes = sceneNames();
     nlohmann::ordered_json scenes = nlohmann::ordered_json::array();
-    bool fine = true;
+    Outcome outcome;
     std::printf("%s, %u threads; JET: %s, %d thread%s\n", processor().c_str(), std::thread::hardware_concurrency(),
                 (options.jet.simd.empty() ? widestSimd() : options.jet.simd).c_str(), options.jet.threads,
                 options.jet.threads == 1 ? "" : "s");
-    for (const std::string& name : options.scenes) fine = compare(makeScene(name), options, scenes) && fine;
-    for (const std::string& file : options.files) fine = compare(loadScene(file), options, scenes) && fine;
+    for (const std::string& name : options.scenes) outcome.add(compare(makeScene(name), options, scenes));
+    for (const std::string& file : options.files) outcome.add(compare(loadScene(file), options, scenes));
     if (!options.summary.empty()) {
         const nlohmann::ordered_json all = {{"processor", processor()},
                                             {"processor_threads", std::thread::hardware_concurrency()},
@@ -174,7 +202,10 @@ int run(Options& options)
         out << all.dump(2) << "\n";
         if (!out) throw std::runtime_error("The summary could not be written to " + options.summary + ".");
     }
-    return fine ? 0 : 1;
+    if (outcome.bounds > 0)
+        std::printf("JET keeps %zu of %zu bounds of quality\n", outcome.bounds - outcome.broken, outcome.bounds);
+    if (!outcome.hasResult) return 1;
+    return outcome.broken > 0 ? 3 : 0;
 }
 
 }  // namespace
