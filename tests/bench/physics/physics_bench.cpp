@@ -33,29 +33,41 @@ std::string processor()
 
 struct Entry {
     std::string key, label;  // in the JSON, in the table
+    std::string simd;        // of JET
     Contestant::Make make;
 };
+
+/// What JET runs with in a scene: what was asked for, or all that make a difference, the widest first.
+std::vector<std::string> simdsOf(const Scene& scene, const Options& options)
+{
+    const std::vector<std::string> all = jetSimds(scene);
+    const std::string& asked = options.jet.simd;
+    if (asked.empty()) return all;
+    // A scene without code for the widest runs with the next.
+    return {std::find(all.begin(), all.end(), asked) != all.end() ? asked : all.front()};
+}
+
+/// Is it named by --only? JET's rows by "jet" (the first of the scene) or by their instructions.
+bool isChosen(const Entry& entry, const std::vector<std::string>& only)
+{
+    const auto named = [&](const std::string& name) { return std::find(only.begin(), only.end(), name) != only.end(); };
+    return only.empty() || named(entry.key) || (!entry.simd.empty() && named("jet_" + entry.simd));
+}
 
 /// JET with the widest instructions first: what the others are compared with.
 std::vector<Entry> entries(const Scene& scene, const Options& options)
 {
     std::vector<Entry> all;
-    const auto jet = [&](const std::string& key, const std::string& simd) {
+    for (const std::string& simd : simdsOf(scene, options)) {
         JetOptions chosen = options.jet;
         chosen.simd = simd;
-        all.push_back({key, "jet " + simd, [&scene, chosen] { return makeJet(scene, chosen); }});
-    };
-    const std::string first = options.jet.simd.empty() ? widestSimd() : options.jet.simd;
-    jet("jet", first);
-    for (const std::string& simd : jetSimds())
-        if (options.jet.simd.empty() && simd != first) jet("jet_" + simd, simd);
-    all.push_back({"box2d_241", "box2d 2.4.1", [&] { return makeBox2d(scene); }});
-    all.push_back({"chipmunk", "chipmunk 7", [&] { return makeChipmunk(scene); }});
-    if (!scene.soft.empty()) all.push_back({"bullet", "bullet 3.24", [&] { return makeBullet(scene); }});
-    if (options.only.empty()) return all;
-    std::erase_if(all, [&](const Entry& entry) {
-        return std::find(options.only.begin(), options.only.end(), entry.key) == options.only.end();
-    });
+        all.push_back({all.empty() ? "jet" : "jet_" + simd, "jet " + simd, simd,
+                       [&scene, chosen] { return makeJet(scene, chosen); }});
+    }
+    all.push_back({"box2d_241", "box2d 2.4.1", "", [&] { return makeBox2d(scene); }});
+    all.push_back({"chipmunk", "chipmunk 7", "", [&] { return makeChipmunk(scene); }});
+    if (!scene.soft.empty()) all.push_back({"bullet", "bullet 3.24", "", [&] { return makeBullet(scene); }});
+    std::erase_if(all, [&](const Entry& entry) { return !isChosen(entry, options.only); });
     return all;
 }
 
@@ -64,12 +76,13 @@ bool isJet(const std::string& key) { return key.rfind("jet", 0) == 0; }
 /// What came of a scene, or of all.
 struct Outcome {
     bool hasResult = true;  // of JET
+    std::size_t rows = 0;
     std::size_t bounds = 0, broken = 0;
 
     void add(const Outcome& other)
     {
         hasResult = hasResult && other.hasResult;
-        bounds += other.bounds, broken += other.broken;
+        rows += other.rows, bounds += other.bounds, broken += other.broken;
     }
 };
 
@@ -119,6 +132,10 @@ Outcome judge(const Scene& scene, const Entry& entry, const Contestant& one, nlo
 Outcome compare(const Scene& scene, const Options& options, nlohmann::ordered_json& scenes)
 {
     const std::vector<Entry> all = entries(scene, options);
+    if (all.empty()) {
+        std::printf("%-22s has no such row\n", scene.name.c_str());
+        return {};
+    }
     std::vector<std::unique_ptr<Contestant>> contestants;
     for (const Entry& entry : all) contestants.push_back(std::make_unique<Contestant>(scene, entry.make));
     std::vector<bool> runs(all.size(), true);
@@ -132,8 +149,9 @@ Outcome compare(const Scene& scene, const Options& options, nlohmann::ordered_js
     nlohmann::ordered_json json = {{"scene", scene.name},
                                    {"bodies", scene.bodies.size()},
                                    {"steps", scene.steps},
-                                   {"simd", options.jet.simd.empty() ? widestSimd() : options.jet.simd}};
+                                   {"simd", simdsOf(scene, options).front()}};
     Outcome outcome;
+    outcome.rows = all.size();
     double jet = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].key == "jet" && contestants[i]->problem().empty()) jet = contestants[i]->result().median;
@@ -164,14 +182,15 @@ void declare(CLI::App& app, Options& options)
     app.add_option("--scene-file", options.files, "A scene from a file; may repeat")->check(CLI::ExistingFile);
     app.add_option("--threads", options.jet.threads, "Of JET")->check(CLI::Range(1, 64))->capture_default_str();
     app.add_option("--simd", options.jet.simd,
-                   "JET with these instructions alone (else: all that the processor has, the widest first)")
+                   "JET with these instructions alone, or the next where a scene has no code for them (else: all that\n"
+                   "the processor has and that make a difference, the widest first)")
         ->check(CLI::IsMember(jetSimds()));
     app.add_option("--precision", options.jet.precision, "Of JET's rigid solver")
         ->check(CLI::IsMember({"double", "single"}));
     app.add_option("--substeps", options.jet.substeps, "Of JET's rigid solver; 0: its own choice")
         ->check(CLI::Range(0, 4096));
-    app.add_option("--only", options.only, "Only this engine; may repeat")
-        ->check(CLI::IsMember({"jet", "jet_avx2", "jet_sse2", "box2d_241", "chipmunk", "bullet"}));
+    app.add_option("--only", options.only, "Only this engine, or JET with these instructions; may repeat")
+        ->check(CLI::IsMember({"jet", "jet_avx512", "jet_avx2", "jet_sse2", "box2d_241", "chipmunk", "bullet"}));
     app.add_option("--check", options.check, "Compare the scenes with the files of this folder, measure nothing")
         ->check(CLI::ExistingDirectory);
     app.add_option("--summary-json", options.summary, "Write all of it to this file");
@@ -204,6 +223,7 @@ int run(Options& options)
     }
     if (outcome.bounds > 0)
         std::printf("JET keeps %zu of %zu bounds of quality\n", outcome.bounds - outcome.broken, outcome.bounds);
+    if (outcome.rows == 0) throw std::runtime_error("No scene has a row that --only and --simd leave.");
     if (!outcome.hasResult) return 1;
     return outcome.broken > 0 ? 3 : 0;
 }
