@@ -5,6 +5,8 @@
 // time all that touch begin.
 #include "world.hpp"
 
+#include <algorithm>
+
 namespace jet::physics {
 
 namespace {
@@ -51,6 +53,11 @@ void World::tellEvents()
     }
     for (; before != touchedBefore_.end(); ++before)
         if (counts(*before)) events_.push_back({lower(*before), higher(*before), false, 0});
+    // Each of both is in ascending order.
+    std::inplace_merge(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(own.size()), events_.end(),
+                       [](const ContactEvent& a, const ContactEvent& b) {
+                           return std::pair(a.bodyA, a.bodyB) < std::pair(b.bodyA, b.bodyB);
+                       });
 }
 
 double World::impulseBetween(std::uint64_t pair) const

@@ -203,11 +203,18 @@ Outcome oneSided(const Lab& lab)
                     "one lands, one jumps up through it and lands");
 }
 
-Outcome events(const Lab& lab)
+/// Balls that bounce, rigid ones, or soft and rigid ones by turns, three of them onto each other.
+Outcome events(const Lab& lab, bool soft)
 {
     const auto world = lab.world({0, 100}, 0.6, 0.5);
     world->addRigidBody(ground(0));
-    for (int i = 0; i < 5; ++i) world->addRigidBody(disc({30.0 * i, -20.0 - 15 * i}, 5));
+    for (int i = 0; i < 5; ++i) {
+        const Vec2 place(i < 3 ? 30.0 * i : 2.0, -20.0 - 15 * i);
+        if (soft && i % 2 == 0)
+            world->addSoftBody(softBall(place, 5, 400, 0.1, 16, 2));
+        else
+            world->addRigidBody(disc(place, 5));
+    }
     std::set<std::pair<BodyHandle, BodyHandle>> together;
     int begun = 0;
     for (int i = 0; i < 300; ++i) {
@@ -336,7 +343,8 @@ std::vector<Check> contactChecks()
             {"contacts", "table of materials", materials},
             {"contacts", "sensors", sensors},
             {"contacts", "one-sided platforms", oneSided},
-            {"contacts", "order of contact events", events},
+            {"contacts", "order of contact events", [](const Lab& lab) { return events(lab, false); }},
+            {"contacts", "order of contact events, soft bodies", [](const Lab& lab) { return events(lab, true); }},
             {"contacts", "contact records", contactRecords},
             {"contacts", "impulses of hits", hitImpulses},
             {"contacts", "sleeping and waking", sleeping}};

@@ -131,6 +131,39 @@ inline RigidBodyDef moving(RigidBodyDef def, const Vec2& velocity, double omega 
 /// A fixed slab whose upper side is y = top.
 inline RigidBodyDef ground(double top, double width = 4000) { return fixed(box({0, top + 50}, width, 100)); }
 
+/// A disc of rings of particles about a hub, mass 1.
+inline SoftBodyDef softBall(const Vec2& centre, double radius, double ks = 200, double kd = 1, int corners = 24,
+                            int rings = 3)
+{
+    SoftBodyDef def;
+    def.particles = {centre};
+    for (int ring = 1; ring <= rings; ++ring)
+        for (const Vec2& p : circleRing(centre, radius * ring / rings, corners)) def.particles.push_back(p);
+    def.masses.assign(def.particles.size(), 1.0 / static_cast<double>(def.particles.size()));
+    const auto index = [&](int ring, int i) {
+        return ring == 0 ? 0U : static_cast<std::uint32_t>(1 + (ring - 1) * corners + (i + corners) % corners);
+    };
+    const auto link = [&](std::uint32_t a, std::uint32_t b) {
+        def.springs.push_back({a, b, (def.particles[a] - def.particles[b]).norm(), ks, kd, 0});
+    };
+    for (int ring = 1; ring <= rings; ++ring)
+        for (int i = 0; i < corners; ++i) {
+            link(index(ring, i), index(ring, i + 1));
+            link(index(ring, i), index(ring - 1, i));
+            if (ring > 1) link(index(ring, i), index(ring - 1, i + 1)), link(index(ring, i + 1), index(ring - 1, i));
+        }
+    auto& border = def.borders.emplace_back();
+    for (int i = 0; i < corners; ++i) border.push_back(index(rings, i));
+    return def;
+}
+
+/// Where the particles of a soft body are.
+inline std::span<const Vec2> points(const PhysicsWorld& world, BodyHandle body)
+{
+    const BodyStates states = world.bodies();
+    return states.points.subspan(states.firstPoint[body], states.firstPoint[body + 1] - states.firstPoint[body]);
+}
+
 inline JointDef joint(JointDef::Kind kind, const Anchor& a, const Anchor& b)
 {
     JointDef def;

@@ -1,4 +1,4 @@
-// Queries against brute force over discs and boxes, whose answers geometry tells.
+// Queries against brute force over discs, boxes and outlines of soft bodies, whose answers geometry tells.
 #include "lab.hpp"
 
 #include <cstdio>
@@ -8,10 +8,11 @@ namespace jet::conformance {
 
 namespace {
 
-/// Fixed discs and turned boxes, none of which overlap.
+/// Discs and turned boxes, or soft bodies that are no more the discs they were drawn as; none of them overlap.
 struct Yard {
     struct Thing {
         bool disc = false;
+        std::vector<Vec2> ring;  // of a soft body, as it is now
         Vec2 at;
         double radius = 0, angle = 0;
         Vec2 half{0, 0};
@@ -20,20 +21,29 @@ struct Yard {
         double distance(const Vec2& p) const
         {
             if (disc) return (p - at).norm() - radius;
+            if (!ring.empty()) return distanceOfRing(p);
             const Vec2 local = Affine::rotation(-angle) * Vec2(p - at);
             const Vec2 q = local.cwiseAbs() - half;
             return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
         }
-        Box bounds() const
+        double distanceOfRing(const Vec2& p) const
         {
-            Box box;
-            if (disc) return Box(at - Vec2(radius, radius), at + Vec2(radius, radius));
-            for (const Vec2& p : boxRing(at, 2 * half.x(), 2 * half.y(), angle)) box.extend(p);
-            return box;
+            double least = 1e9;
+            bool inside = false;
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()], side = b - a;
+                const double t = std::clamp((p - a).dot(side) / side.squaredNorm(), 0.0, 1.0);
+                least = std::min(least, (a + t * side - p).norm());
+                if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / side.y() * side.x())
+                    inside = !inside;
+            }
+            return inside ? -least : least;
         }
     };
 
-    explicit Yard(const Lab& lab) : world(lab.world({0, 0}))
+    Yard(const Lab& lab, bool soft) : world(lab.world({0, 0})) { soft ? fillSoft() : fill(); }
+
+    void fill()
     {
         for (int row = 0; row < 8; ++row)
             for (int column = 0; column < 8; ++column) {
@@ -50,6 +60,21 @@ struct Yard {
                 things.push_back(thing);
             }
         world->step(kStep);
+    }
+
+    void fillSoft()
+    {
+        for (int i = 0; i < 64; ++i) {
+            const Vec2 place = Vec2(60 * (i % 8), 60 * (i / 8)) + Vec2(number(-8, 8), number(-8, 8));
+            SoftBodyDef def = softBall(place, number(8, 18), 200, 1, 12, 2);
+            for (SpringDef& spring : def.springs) spring.restLength *= number(0.8, 1.2);
+            world->addSoftBody(def);
+            things.emplace_back().at = place;
+        }
+        run(*world, 1);
+        const std::vector<std::uint32_t> border = softBall({0, 0}, 1, 200, 1, 12, 2).borders[0];
+        for (BodyHandle body = 0; body < things.size(); ++body)
+            for (const std::uint32_t particle : border) things[body].ring.push_back(points(*world, body)[particle]);
     }
 
     /// First contact of a disc of this radius on its way, by sphere tracing: exact to 1e-9.
@@ -133,17 +158,17 @@ Outcome compareCasts(const Yard& yard, double radius, Cast cast)
     return measured(off, "units", 0.25, std::to_string(hits) + " hits");
 }
 
-Outcome rays(const Lab& lab)
+Outcome rays(const Lab& lab, bool soft)
 {
-    const Yard yard(lab);
+    const Yard yard(lab, soft);
     const auto any = yard.world->rayCast({-100, 0}, {600, 0});
     if (!any) return {Outcome::Verdict::Missing, 0, 0, {}, "a ray through bodies finds nothing"};
     return compareCasts(yard, 0, [&](const Vec2& from, const Vec2& to) { return yard.world->rayCast(from, to); });
 }
 
-Outcome casts(const Lab& lab)
+Outcome casts(const Lab& lab, bool soft)
 {
-    const Yard yard(lab);
+    const Yard yard(lab, soft);
     const auto cast = [&](const Vec2& from, const Vec2& to) {
         return yard.world->shapeCast({ShapeDef::Kind::Circle, {from}, 4}, to - from);
     };
@@ -151,9 +176,9 @@ Outcome casts(const Lab& lab)
     return compareCasts(yard, 4, cast);
 }
 
-Outcome boxes(const Lab& lab)
+Outcome boxes(const Lab& lab, bool soft)
 {
-    const Yard yard(lab);
+    const Yard yard(lab, soft);
     int wrong = 0, found = 0;
     for (int i = 0; i < 300; ++i) {
         const Vec2 from(yard.number(-60, 480), yard.number(-60, 480));
@@ -175,9 +200,9 @@ Outcome boxes(const Lab& lab)
     return measured(wrong, "wrong answers", 0, std::to_string(found) + " found");
 }
 
-Outcome nearest(const Lab& lab)
+Outcome nearest(const Lab& lab, bool soft)
 {
-    const Yard yard(lab);
+    const Yard yard(lab, soft);
     double off = 0;
     int found = 0;
     for (int i = 0; i < 300; ++i) {
@@ -213,9 +238,9 @@ Outcome filter(const Lab& lab)
                  "layers, the excepted body or sensors are not heeded");
 }
 
-Outcome agreement(const Lab& lab)
+Outcome agreement(const Lab& lab, bool soft)
 {
-    const Yard yard(lab);
+    const Yard yard(lab, soft);
     const PhysicsWorld& world = *yard.world;
     int wrong = 0, hits = 0;
     std::string first;
@@ -289,14 +314,22 @@ Outcome contains(const Lab& lab)
 
 std::vector<Check> queryChecks()
 {
-    return {{"queries", "ray casts", rays},
-            {"queries", "shape casts", casts},
-            {"queries", "overlapping a box", boxes},
-            {"queries", "nearest point", nearest},
-            {"queries", "filters", filter},
-            {"queries", "containing a point", contains},
-            {"queries", "rays, casts, boxes agree", agreement},
-            {"queries", "chains have a front", frontOfChains}};
+    std::vector<Check> checks;
+    for (const bool soft : {false, true}) {
+        const auto add = [&](const char* name, Outcome (*check)(const Lab&, bool)) {
+            checks.push_back({"queries", name + std::string(soft ? ", soft bodies" : ""),
+                              [=](const Lab& lab) { return check(lab, soft); }});
+        };
+        add("ray casts", rays);
+        add("shape casts", casts);
+        add("overlapping a box", boxes);
+        add("nearest point", nearest);
+        add("rays, casts, boxes agree", agreement);
+    }
+    checks.push_back({"queries", "filters", filter});
+    checks.push_back({"queries", "containing a point", contains});
+    checks.push_back({"queries", "chains have a front", frontOfChains});
+    return checks;
 }
 
 }  // namespace jet::conformance

@@ -15,37 +15,6 @@ SoftBodyDef dumbbell(const Vec2& a, const Vec2& b, double ks, double kd, double 
     return def;
 }
 
-/// A disc of rings of particles about a hub, mass 1.
-SoftBodyDef ball(const Vec2& centre, double radius, double ks = 200, double kd = 1, int corners = 24, int rings = 3)
-{
-    SoftBodyDef def;
-    def.particles = {centre};
-    for (int ring = 1; ring <= rings; ++ring)
-        for (const Vec2& p : circleRing(centre, radius * ring / rings, corners)) def.particles.push_back(p);
-    def.masses.assign(def.particles.size(), 1.0 / static_cast<double>(def.particles.size()));
-    const auto index = [&](int ring, int i) {
-        return ring == 0 ? 0U : static_cast<std::uint32_t>(1 + (ring - 1) * corners + (i + corners) % corners);
-    };
-    const auto link = [&](std::uint32_t a, std::uint32_t b) {
-        def.springs.push_back({a, b, (def.particles[a] - def.particles[b]).norm(), ks, kd, 0});
-    };
-    for (int ring = 1; ring <= rings; ++ring)
-        for (int i = 0; i < corners; ++i) {
-            link(index(ring, i), index(ring, i + 1));
-            link(index(ring, i), index(ring - 1, i));
-            if (ring > 1) link(index(ring, i), index(ring - 1, i + 1)), link(index(ring, i + 1), index(ring - 1, i));
-        }
-    auto& border = def.borders.emplace_back();
-    for (int i = 0; i < corners; ++i) border.push_back(index(rings, i));
-    return def;
-}
-
-std::span<const Vec2> points(const PhysicsWorld& world, BodyHandle body)
-{
-    const BodyStates states = world.bodies();
-    return states.points.subspan(states.firstPoint[body], states.firstPoint[body + 1] - states.firstPoint[body]);
-}
-
 double area(std::span<const Vec2> p, std::span<const std::uint32_t> ring)
 {
     double sum = 0;
@@ -156,7 +125,8 @@ Outcome pieces(const Lab& lab)
 Outcome momentum(const Lab& lab)
 {
     const auto world = lab.world({0, 0}, 0.5, 0.3);
-    std::vector<BodyHandle> bodies{world->addSoftBody(ball({-40, 0}, 20)), world->addSoftBody(ball({40, 5}, 20))};
+    std::vector<BodyHandle> bodies{world->addSoftBody(softBall({-40, 0}, 20)),
+                                   world->addSoftBody(softBall({40, 5}, 20))};
     world->setVelocity(bodies[0], {80, 0});
     run(*world, 2);
     const Vec2 sum = velocity(*world, bodies[0]) + velocity(*world, bodies[1]);
@@ -185,7 +155,7 @@ Outcome ballRests(const Lab& lab)
 {
     const auto world = lab.world({0, 98.1});
     world->addRigidBody(ground(0));
-    const SoftBodyDef def = ball({0, -40}, 20);
+    const SoftBodyDef def = softBall({0, -40}, 20);
     const BodyHandle body = world->addSoftBody(def);
     run(*world, 8);
     double lowest = -1e9;
@@ -199,7 +169,7 @@ Outcome softOnSoft(const Lab& lab)
     const auto world = lab.world({0, 98.1});
     world->addRigidBody(
         fixed(drawn({{{-34, -160}, {-24, -160}, {-24, 0}, {24, 0}, {24, -160}, {34, -160}, {34, 10}, {-34, 10}}})));
-    const SoftBodyDef low = ball({0, -22}, 20), high = ball({3, -65}, 20);
+    const SoftBodyDef low = softBall({0, -22}, 20), high = softBall({3, -65}, 20);
     const BodyHandle a = world->addSoftBody(low), b = world->addSoftBody(high);
     const BodyHandle lid = world->addRigidBody(box({0, -100}, 44, 6, 0.3));
     run(*world, 6);
@@ -211,7 +181,7 @@ Outcome softOnSoft(const Lab& lab)
 Outcome composite(const Lab& lab)
 {
     const auto world = lab.world({0, 0});
-    const SoftBodyDef def = ball({0, 0}, 20, 100, 0.5);
+    const SoftBodyDef def = softBall({0, 0}, 20, 100, 0.5);
     const BodyHandle body = world->addSoftBody(def);
     for (int i = 0; i < 30; ++i) {
         world->applyForce(body, {0, 0});
@@ -232,7 +202,7 @@ Outcome composite(const Lab& lab)
 Outcome rigidTwin(const Lab& lab)
 {
     const auto world = lab.world({0, 0});
-    SoftBodyDef def = ball({0, 0}, 20, 100, 0.5);
+    SoftBodyDef def = softBall({0, 0}, 20, 100, 0.5);
     def.springs.clear();
     def.matter.shapeStiffness = 50, def.matter.shapeDamping = 1;
     const BodyHandle body = world->addSoftBody(def);
@@ -291,7 +261,7 @@ Outcome areaKept(const Lab& lab)
     const auto flattened = [&](double stiffness) {
         const auto world = lab.world({0, 98.1});
         world->addRigidBody(ground(20));
-        SoftBodyDef def = ball({0, 0}, 20, 60, 1);
+        SoftBodyDef def = softBall({0, 0}, 20, 60, 1);
         def.matter.areaStiffness = stiffness;
         const BodyHandle body = world->addSoftBody(def);
         world->addRigidBody(box({0, -30}, 60, 8, 6));
@@ -356,7 +326,7 @@ Outcome liveSprings(const Lab& lab)
 Outcome joints(const Lab& lab)
 {
     const auto world = lab.world({0, 98.1});
-    const BodyHandle body = world->addSoftBody(ball({0, 0}, 20));
+    const BodyHandle body = world->addSoftBody(softBall({0, 0}, 20));
     JointDef def = joint(JointDef::Kind::Revolute, background({0, 0}), on(body, {0, 0}));
     const JointHandle pin = world->addJoint(def);
     run(*world, 3);
@@ -404,7 +374,7 @@ Outcome field(const Lab& lab, ForceFieldDef::Kind kind, bool soft)
     def.kind = kind;
     def.vector = {40, 0}, def.strength = 2;
     double should = 0;
-    const BodyHandle body = soft ? world->addSoftBody(ball({30, 0}, 4)) : world->addRigidBody(disc({30, 0}, 4));
+    const BodyHandle body = soft ? world->addSoftBody(softBall({30, 0}, 4)) : world->addRigidBody(disc({30, 0}, 4));
     switch (kind) {
     case ForceFieldDef::Kind::Directional: should = 40; break;
     case ForceFieldDef::Kind::Radial: should = 2; break;

@@ -35,6 +35,8 @@ struct JetOptions {
 std::unique_ptr<Engine> makeJet(const Scene&, const JetOptions&);
 /// Instructions JET has kernels for and this processor, too, the widest first.
 std::vector<std::string> jetSimds();
+/// Those of them that run other code than the next in this scene.
+std::vector<std::string> jetSimds(const Scene&);
 std::unique_ptr<Engine> makeBox2d(const Scene&);
 std::unique_ptr<Engine> makeChipmunk(const Scene&);
 /// For scenes of soft bodies between fixed boxes.

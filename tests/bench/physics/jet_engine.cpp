@@ -13,6 +13,7 @@ namespace {
 
 Vec2 vec(const Point& p) { return {p.x, p.y}; }
 
+/// AVX-512 is what "automatic" takes where there is code for it and a processor that has it.
 Simd simdOf(const std::string& name)
 {
     return name == "avx2" ? Simd::Avx2 : name == "sse2" ? Simd::Sse2 : Simd::Automatic;
@@ -150,6 +151,14 @@ std::vector<std::string> jetSimds()
     if (physics::soft::hasAvx512()) all.emplace_back("avx512");
     if (physics::soft::hasAvx2()) all.emplace_back("avx2");
     all.emplace_back("sse2");
+    return all;
+}
+
+std::vector<std::string> jetSimds(const Scene& scene)
+{
+    std::vector<std::string> all = jetSimds();
+    // Springs and flights of soft bodies are all that is written for it (soft/kernels_avx512.cpp).
+    if (scene.soft.empty()) std::erase(all, "avx512");
     return all;
 }
 

@@ -66,6 +66,16 @@ void addRow(PhysicsWorld& world, int count, int springs, double tearRatio)
     world.addSoftBody(def);
 }
 
+/// Bytes of one, under the limit; 0: has none.
+bool print(const char* what, double bytes, double limit = 0)
+{
+    const bool fine = limit == 0 || bytes < limit;
+    std::printf("%-22s %7.0f bytes", what, bytes);
+    if (limit > 0) std::printf("  %s %.0f", fine ? "<" : "TOO MANY, must be <", limit);
+    std::printf("\n");
+    return fine;
+}
+
 }  // namespace
 
 std::size_t heapInUse()
@@ -74,7 +84,7 @@ std::size_t heapInUse()
     return info.uordblks + info.hblkhd;
 }
 
-void printMemory()
+bool memoryIsInLimits()
 {
     const double box = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, false); });
     const double unseen = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, false); }, false);
@@ -82,12 +92,12 @@ void printMemory()
     const double particle = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 0, 0); });
     const double sprung = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 4, 0); });
     const double tearing = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 4, 2); });
-    std::printf("rigid body (box)        %6.0f bytes\n", box);
-    std::printf("  nobody looks at       %6.0f bytes\n", unseen);
-    std::printf("contact of two points   %6.0f bytes\n", resting - box);
-    std::printf("particle                %6.0f bytes\n", particle);
-    std::printf("spring                  %6.0f bytes\n", (sprung - particle) / 4);
-    std::printf("spring that may tear    %6.0f bytes\n", (tearing - particle) / 4);
+    bool fine = print("rigid body (box)", box, 700);
+    print("  nobody looks at", unseen);
+    print("contact of two points", resting - box);
+    fine = print("particle", particle, 120) && fine;
+    fine = print("spring", (sprung - particle) / 4, 64) && fine;
+    return print("spring that may tear", (tearing - particle) / 4, 64) && fine;
 }
 
 }  // namespace jet::bench

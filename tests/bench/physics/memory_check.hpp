@@ -6,6 +6,7 @@
 namespace jet::bench {
 
 std::size_t heapInUse();
-void printMemory();
+/// Prints them; false when one takes as much as its limit or more.
+bool memoryIsInLimits();
 
 }  // namespace jet::bench

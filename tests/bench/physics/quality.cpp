@@ -1,5 +1,7 @@
 #include "bench/physics/quality.hpp"
 
+#include "bench/physics/energy.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -140,7 +142,8 @@ std::vector<Pose> posesOf(const Engine& engine, std::size_t bodies)
 nlohmann::ordered_json qualityOf(const Scene& scene, const std::vector<Pose>& before, const std::vector<Pose>& now)
 {
     std::size_t escaped = 0, fallen = 0, notFinite = 0, top = 0;
-    double fastest = 0;
+    double fastest = 0, sideways = 0;
+    std::size_t moving = 0;
     for (std::size_t i = 0; i < now.size(); ++i) {
         const Point& at = now[i].position;
         if (!std::isfinite(at.x + at.y + now[i].angle)) {
@@ -148,6 +151,7 @@ nlohmann::ordered_json qualityOf(const Scene& scene, const std::vector<Pose>& be
             continue;
         }
         if (!moves(scene, i)) continue;
+        ++moving, sideways += std::abs(at.x - scene.bodies[i].position.x);
         escaped += at.x < scene.bounds[0] || at.y < scene.bounds[1] || at.x > scene.bounds[2];
         fallen += distance(at, scene.bodies[i].position) > 0.5 + 0.0075 * scene.bodies[i].position.y;
         if (scene.bodies[i].position.y > scene.bodies[top].position.y) top = i;
@@ -158,6 +162,7 @@ nlohmann::ordered_json qualityOf(const Scene& scene, const std::vector<Pose>& be
         json["fallen"] = fallen;
         json["apex_sinks"] = scene.bodies[top].position.y - now[top].position.y;
         json["fastest"] = fastest;
+        json["drift"] = sideways / static_cast<double>(moving);
     }
     if (scene.name.rfind("bullets", 0) == 0) {
         int passed = 0;
@@ -167,6 +172,10 @@ nlohmann::ordered_json qualityOf(const Scene& scene, const std::vector<Pose>& be
     }
     if (!scene.joints.empty()) json.update(jointErrors(scene, now));
     if (scene.joints.empty() && scene.name != "soft-sheet") json.update(overlaps(scene, now));
+    const Energy end = energyOf(scene, before, now);
+    json["energy_start"] = energyAtStart(scene).all();
+    json["energy_end"] = end.all();
+    json["kinetic_end"] = end.kinetic;
     return json;
 }
 

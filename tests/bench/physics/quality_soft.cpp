@@ -27,6 +27,40 @@ bool inside(const std::vector<Point>& ring, const Point& at)
     return in;
 }
 
+/// From the corners of one to the sides of the other.
+double apart(const std::vector<Point>& corners, const std::vector<Point>& ring)
+{
+    double least = 1e300;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Point &p = ring[i], &q = ring[(i + 1) % ring.size()];
+        const double dx = q.x - p.x, dy = q.y - p.y, square = dx * dx + dy * dy;
+        for (const Point& at : corners) {
+            const double along = square > 0 ? ((at.x - p.x) * dx + (at.y - p.y) * dy) / square : 0;
+            const double t = std::clamp(along, 0.0, 1.0);
+            least = std::min(least, std::hypot(p.x + t * dx - at.x, p.y + t * dy - at.y));
+        }
+    }
+    return least;
+}
+
+/// An outline's particles reach out of it by their radius; a centimetre between two of them is still a touch: engines
+/// keep so much or less between bodies, or let them sink in.
+constexpr double kTouch = 0.01;
+
+nlohmann::ordered_json touches(const Scene& scene, const std::vector<std::vector<Point>>& rings)
+{
+    const double reach = 2 * scene.bodies[scene.soft[0].first].shapes.at(0).radius + kTouch;
+    std::vector<int> neighbours(rings.size(), 0);
+    int pairs = 0;
+    for (std::size_t a = 0; a < rings.size(); ++a) {
+        for (std::size_t b = a + 1; b < rings.size(); ++b) {
+            if (std::min(apart(rings[a], rings[b]), apart(rings[b], rings[a])) > reach) continue;
+            ++pairs, ++neighbours[a], ++neighbours[b];
+        }
+    }
+    return {{"touching", pairs}, {"touching_none", std::count(neighbours.begin(), neighbours.end(), 0)}};
+}
+
 std::vector<Point> outline(const SceneSoft& soft, const std::vector<Pose>& now)
 {
     std::vector<Point> ring;
@@ -83,6 +117,7 @@ nlohmann::ordered_json SoftWatch::quality(const std::vector<Pose>& now) const
     json["least_area"] = least;
     json["inverted"] = inverted;
     json["merged"] = merged;
+    json.update(touches(scene_, rings));
     return json;
 }
 

@@ -13,8 +13,8 @@ public:
 
     /// After each timed step.
     void see(const Engine&);
-    /// Of outlines: area, inversions, balls that passed into each other; of what hangs: the mean height over the timed
-    /// steps of the row that is lowest at first.
+    /// Of outlines: area, inversions, balls that passed into each other, pairs of balls that touch, and balls that
+    /// touch no other; of what hangs: the mean height over the timed steps of the row that is lowest at first.
     nlohmann::ordered_json quality(const std::vector<Pose>& now) const;
 
 private:
