@@ -10,7 +10,7 @@ namespace jet::physics {
 inline constexpr double kSlopPerLength = 0.002;
 /// What a soft contact holds is in proportion to the lighter mass, so a heavy body would sink into a light one. A
 /// contact is soft up to so many slops of overlap; from there on it yields less and less, and from twice as many on it
-/// is as hard as its load demands.
+/// is as hard as its load demands. One that did not come from the wall's front stays soft.
 inline constexpr double kYieldSlops = 10;
 /// In slops: overlaps up to this depth can come of resting; a point deeper behind a wall went round its end or is
 /// inside.

@@ -242,7 +242,8 @@ void ContactSolver::solveWith(ContactPoint& c, Pass pass, Relative&& relative, A
         bias = c.separation / h_;
     } else if (pass == Pass::Push) {
         bias = std::max(soft.biasRate * std::min(0.0, c.separation + c.slop), -pushSpeed(c));
-        const double yields = std::clamp(2 + (c.separation + c.slop) / (kYieldSlops * c.slop), 0.0, 1.0);
+        const double deep = -(c.separation + c.slop) / (kYieldSlops * c.slop);
+        const double yields = c.engaged ? std::clamp(2 - deep, 0.0, 1.0) : 1;
         massScale = soft.massScale + (1 - yields) * (1 - soft.massScale);
         impulseScale = yields * soft.impulseScale;
     }

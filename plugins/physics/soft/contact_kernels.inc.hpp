@@ -191,8 +191,9 @@ JET_INLINE void solveOne(ContactBlock& c, ContactHead& head, const Particles& pa
         Eight massScale = choose(still, all(step.still.massScale), all(step.moving.massScale));
         Eight impulseScale = choose(still, all(step.still.impulseScale), all(step.moving.impulseScale));
         const Eight deep = -(separation + slop), limit = kYields * slop;
-        if (bits(active & (deep > limit)) != 0) {
-            const Eight yields = most(zero, least(one, all(2.0F) - deep / limit));
+        const Bits hard = active & get(c.engaged) & (deep > limit);
+        if (bits(hard) != 0) {
+            const Eight yields = choose(hard, most(zero, all(2.0F) - deep / limit), one);
             massScale = massScale + (one - yields) * (one - massScale), impulseScale = yields * impulseScale;
         }
         massScale = choose(apart, one, massScale), impulseScale = where(~apart, impulseScale);
