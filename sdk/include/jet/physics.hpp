@@ -1,7 +1,15 @@
 // The contract between the editor and a physics engine plugin: ids, spans and plain structs, no scene types.
 //
 // Order of calls: engine.createWorld -> world.add... (any number) -> world.step / read / act, repeated -> destroyed.
-// A world belongs to one thread at a time: the simulation's. Handles are indices in the order of adding, per kind.
+// A world belongs to one thread at a time, the simulation's, also for what is const: readings are worked out when they
+// are first asked for. Handles are indices in the order of adding, per kind; what was added stays (a body may be
+// switched off, a joint removed). Spans that are told hold until the next call that is not const. A world outlives its
+// engine object, but not the library it comes from.
+//
+// Whatever is out of range, not a number, or names what is not there is refused by throwing Failure with a sentence
+// that names the item, the field, its value and the range (physics_checks.hpp has all of them; the defaults below are
+// in range); the world then is as it was. So is what an engine lacks. Numbers without a range may be any up to 1e30.
+//
 // Units: scene units (y down), seconds, mass units; force = mass * unit / s². Angles and torques grow clockwise on
 // screen.
 #pragma once
@@ -26,8 +34,8 @@ inline constexpr std::uint32_t kNoHandle = 0xffffffffU;
 
 /// How a pair of materials meets (thesis §2.4.3.4; SPEC PH8).
 struct MaterialPair {
-    double friction = 0.6;     ///< Coulomb coefficient
-    double restitution = 0.1;  ///< 0 no bounce, 1 full
+    double friction = 0.6;     ///< Coulomb coefficient, >= 0
+    double restitution = 0.1;  ///< 0 no bounce .. 1 full
     bool collides = true;
 };
 
@@ -38,7 +46,8 @@ enum class Precision : std::uint8_t {
     Single
 };
 
-/// Instructions of the wide kernels; every choice gives the same bits.
+/// Instructions of the wide kernels; every choice gives the same bits. Automatic takes the widest of the processor's
+/// that there is code for (soft bodies: AVX-512, too); a choice that it has not falls to the next narrower.
 enum class Simd : std::uint8_t { Automatic, Sse2, Avx2 };
 
 /// How a world advances.
@@ -48,18 +57,19 @@ enum class Method : std::uint8_t {
 };
 
 struct WorldSettings {
-    Vec2 gravity{0, 98.1};       ///< scene units / s²
-    double linearDamping = 0.0;  ///< 1/s; velocity decays as exp(-damping t)
-    double angularDamping = 0.0;
-    bool applyGravity = true;  ///< the four switches of SPEC PH10
+    Vec2 gravity{0, 98.1};        ///< scene units / s²
+    double linearDamping = 0.0;   ///< 1/s, >= 0; velocity decays as exp(-damping t)
+    double angularDamping = 0.0;  ///< the same of omega
+    bool applyGravity = true;     ///< the four switches of SPEC PH10
     bool applyDamping = true;
     bool findCollisions = true;
     bool resolveCollisions = true;
     std::uint32_t materialCount = 1;
     std::vector<MaterialPair> materials =
         std::vector<MaterialPair>(1);  ///< [materialCount x materialCount], row major, symmetric
-    int threads = 1;
-    int substeps = 0;  ///< of the rigid solver a step; 0: 4 in large worlds of rigid bodies, else as the scene needs
+    int threads = 1;                   ///< 1..64, of which the caller's is one; the bits do not depend on it
+    /// 0..4096, of the rigid solver a step; 0: 4 in large worlds of rigid bodies, else as the scene needs.
+    int substeps = 0;
     Precision precision = Precision::Automatic;
     Simd simd = Simd::Automatic;
     Method method = Method::Automatic;
@@ -69,9 +79,9 @@ struct WorldSettings {
 /// Spring between two particles of one soft body (SPEC PH2).
 struct SpringDef {
     std::uint32_t a = 0, b = 0;  ///< particle indices within the body
-    double restLength = 0;       ///< scene units
-    double ks = 10;              ///< stiffness, force / unit
-    double kd = 0.1;             ///< damping along the spring, force / (unit/s)
+    double restLength = 0;       ///< scene units, >= 0
+    double ks = 10;              ///< stiffness, force / unit, >= 0
+    double kd = 0.1;             ///< damping along the spring, force / (unit/s), >= 0
     double tearRatio = 0;        ///< kt: tears beyond restLength * tearRatio; 0 never tears
 };
 
@@ -79,8 +89,8 @@ struct SpringDef {
 struct AngularSpringDef {
     std::uint32_t a = 0, centre = 0, b = 0;
     double restAngle = 0;  ///< radians
-    double ks = 10;        ///< torque / rad
-    double kd = 0.1;       ///< torque / (rad/s)
+    double ks = 10;        ///< torque / rad, >= 0
+    double kd = 0.1;       ///< torque / (rad/s), >= 0
 };
 
 struct BodyCommon {
@@ -88,8 +98,8 @@ struct BodyCommon {
     std::uint32_t material = 0;  ///< index into WorldSettings::materials
     Vec2 velocity;               ///< initial, units/s
     double omega = 0;            ///< initial, rad/s (soft bodies: applied about their centre of mass)
-    double gravityScale = 1;
-    bool sensor = false;  ///< contacts are reported, not resolved
+    double gravityScale = 1;     ///< times gravity; below 0 it rises
+    bool sensor = false;         ///< contacts are reported, not resolved
 
     bool kinematic = false;      ///< moves with its velocity and omega, and nothing pushes it
     bool fixedRotation = false;  ///< never turns
@@ -113,8 +123,9 @@ struct ShapeDef {
     double radius = 0;  ///< circle and capsule, scene units, > 0
 };
 
-/// Closed walls a body collides with. Borders of one body are one region: a
-/// point is inside when it is inside an odd number of borders: an outer border and holes. Concave is normal.
+/// Particles, and what holds them together. Borders are closed walls that others collide with; those of one body are
+/// one region: a point is inside when it is inside an odd number of them (an outer border and holes). Concave is
+/// normal.
 struct SoftBodyDef {
     BodyCommon common;
     std::vector<Vec2> particles;                      ///< positions, scene units
@@ -126,6 +137,7 @@ struct SoftBodyDef {
     SoftMatter matter;
 };
 
+/// A body that keeps its shape, of closed borders (one region, as of SoftBodyDef) or of simple shapes.
 struct RigidBodyDef {
     BodyCommon common;
     std::vector<std::vector<Vec2>> borders;  ///< closed rings, scene coordinates at rest
@@ -144,16 +156,17 @@ struct Anchor {
 /// Scene-level spring (SPEC PH7): joins two anchors. restLength < 0: the distance at the time of adding.
 struct SpringActuatorDef {
     Anchor a, b;
-    double restLength = -1;
-    double ks = 10, kd = 0.1;
-    double tearRatio = 0;
+    double restLength = -1;    ///< scene units
+    double ks = 10, kd = 0.1;  ///< force / unit, force / (unit/s); >= 0
+    double tearRatio = 0;      ///< tears beyond restLength * tearRatio; 0 never tears
 };
 
+/// Keeps the angle from a to b about the centre, between bodies.
 struct AngularSpringActuatorDef {
     Anchor a, centre, b;
-    double restAngle = 0;
+    double restAngle = 0;      ///< radians
     bool restFromPose = true;  ///< take the angle at the time of adding instead of restAngle
-    double ks = 10, kd = 0.1;
+    double ks = 10, kd = 0.1;  ///< torque / rad, torque / (rad/s); >= 0
 };
 
 /// Torque on a body about a point of it. Clockwise on screen is positive here.
@@ -165,7 +178,7 @@ struct TorqueActuatorDef {
 /// Constant force on a body at a point of it, in scene directions.
 struct ForceActuatorDef {
     Anchor at;
-    Vec2 force;
+    Vec2 force;  ///< mass * unit / s²
 };
 
 /// Holds two bodies together, or a body to the background. Which fields count depends on the kind; angles and lengths
@@ -191,21 +204,21 @@ struct JointDef {
     bool driven = false;      ///< the motor is on
     double motorSpeed = 0;    ///< rad/s (revolute, wheel, motor) or units/s (prismatic)
     Vec2 motorVelocity;       ///< units/s; motor joint
-    double maxForce = 0;      ///< force the motor or mouse has at most
-    double maxTorque = 0;     ///< torque the motor has at most
-    double hertz = 0;         ///< 1/s of the joint's spring; 0: rigid
-    double dampingRatio = 1;  ///< 1: critical
+    double maxForce = 0;      ///< force the motor (along each axis) or mouse has at most, >= 0; with 0 it does nothing
+    double maxTorque = 0;     ///< torque the motor has at most, force * unit, >= 0; with 0 it does not turn
+    double hertz = 0;         ///< 1/s of the joint's spring, >= 0; 0: rigid
+    double dampingRatio = 1;  ///< >= 0; 1: critical
     double length = -1;       ///< scene units; < 0: the distance at the time of adding
     double ratio = 1;         ///< pulley
     Vec2 groundA, groundB;    ///< pulley's wheels, scene coordinates
-    double breakForce = 0;    ///< breaks above this force; 0: never
+    double breakForce = 0;    ///< breaks above this force, whatever the torque, after the step; 0: never
     bool collide = false;     ///< may the joined bodies collide?
 };
 
 /// What a joint did in the last step.
 struct JointState {
-    Vec2 force;         ///< on b
-    double torque = 0;  ///< on b
+    Vec2 force;         ///< on b, mass * unit / s²
+    double torque = 0;  ///< on b, force * unit
     double value = 0;   ///< angle (radians) or travel or distance (units) since the time of adding
     bool broken = false;
     Vec2 pointA, pointB;  ///< where it holds the two, scene coordinates
@@ -275,6 +288,7 @@ class JET_API PhysicsWorld {
 public:
     virtual ~PhysicsWorld();
 
+    /// What is added between steps counts from the next one on.
     virtual BodyHandle addSoftBody(const SoftBodyDef&) = 0;
     virtual BodyHandle addRigidBody(const RigidBodyDef&) = 0;
     virtual ActuatorHandle addSpring(const SpringActuatorDef&) = 0;
@@ -282,11 +296,13 @@ public:
     virtual ActuatorHandle addTorque(const TorqueActuatorDef&) = 0;
     virtual ActuatorHandle addForce(const ForceActuatorDef&) = 0;
 
-    /// Advances by dt seconds (> 0). Bit-equal for equal histories, whatever the thread count.
+    /// Advances by dt seconds (> 0; JET's own engine takes up to 500). Bit-equal for equal histories, whatever the
+    /// thread count.
     virtual void step(double dt) = 0;
 
     virtual std::size_t bodyCount() const = 0;
     virtual BodyStates bodies() const = 0;
+    /// All that touched in the last step, whether it began then or goes on.
     virtual std::span<const Contact> contacts() const = 0;
     virtual StepStats stats() const = 0;
     /// Did these two bodies touch in the last step? False for bodies of equal handle.
@@ -299,6 +315,7 @@ public:
     virtual void setForce(ActuatorHandle force, const Vec2& value) = 0;
     /// Force for the next step only, at the centre of mass (soft: spread by mass).
     virtual void applyForce(BodyHandle body, const Vec2& force) = 0;
+    /// At the centre of mass, at once; mass * unit / s.
     virtual void applyImpulse(BodyHandle body, const Vec2& impulse) = 0;
     virtual void setVelocity(BodyHandle body, const Vec2& velocity) = 0;
     virtual void setOmega(BodyHandle body, double omega) = 0;
@@ -349,8 +366,12 @@ public:
     virtual void wake(BodyHandle) {}
     /// Number of the group of touching or joined bodies it was computed with; kNoHandle: none, or asleep.
     virtual std::uint32_t island(BodyHandle) const { return kNoHandle; }
-    /// Touches that began or ended in the last step, in ascending order of bodies.
+    /// Touches that began or ended in the last step, in ascending order of bodies. Telling them takes time: a world
+    /// with soft bodies, or rigid ones without simple shapes, may begin with it when it is first asked, and then tells
+    /// of all that touch as beginning. Ask from the first step on, or compare contacts().
     virtual std::span<const ContactEvent> contactEvents() const { return {}; }
+
+    // Queries see the world as it is, also between adding and the first step. None is found where the engine has none.
 
     /// The first body on the way from one place to another.
     virtual std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter& = {}) const;
