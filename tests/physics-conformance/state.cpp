@@ -7,8 +7,7 @@ namespace jet::conformance {
 
 namespace {
 
-/// A bit of everything rigid: a pile, joints, springs, things that move by themselves.
-std::unique_ptr<PhysicsWorld> scene(const Lab& lab, int threads = 1)
+std::unique_ptr<PhysicsWorld> onGround(const Lab& lab, int threads)
 {
     WorldSettings settings;
     settings.gravity = {0, 98.1};
@@ -16,6 +15,13 @@ std::unique_ptr<PhysicsWorld> scene(const Lab& lab, int threads = 1)
     settings.materials = {MaterialPair{0.5, 0.2, true}};
     auto world = lab.world(settings);
     world->addRigidBody(ground(0));
+    return world;
+}
+
+/// A bit of everything rigid: a pile, joints, springs, things that move by themselves.
+std::unique_ptr<PhysicsWorld> scene(const Lab& lab, int threads = 1)
+{
+    auto world = onGround(lab, threads);
     BodyHandle last = kNoHandle;
     for (int i = 0; i < 60; ++i) {
         const Vec2 place(30 * (i % 6) + 3 * (i % 4), -15.0 - 25 * (i / 6));
@@ -59,12 +65,7 @@ Outcome twoRuns(const Lab& lab)
 /// left to one thread, and then any count of threads gives the same bits.
 std::unique_ptr<PhysicsWorld> crowd(const Lab& lab, int threads)
 {
-    WorldSettings settings;
-    settings.gravity = {0, 98.1};
-    settings.threads = threads;
-    settings.materials = {MaterialPair{0.5, 0.2, true}};
-    auto world = lab.world(settings);
-    world->addRigidBody(ground(0));
+    auto world = onGround(lab, threads);
     for (int i = 0; i < 2000; ++i) {
         const Vec2 place(10 * (i % 80) + i / 80 % 3, -5.0 - 10 * (i / 80));
         world->addRigidBody(i % 3 == 0 ? disc(place, 5) : box(place, 10, 10, 1 + i % 4));
