@@ -303,6 +303,7 @@ void Solver<Real>::finish(Collider& collider, std::vector<Joint>& joints)
     eachNode([&](Node node) {
         std::vector<TouchChange>& changes = settling_[node].changes;
         changes.clear();
+        calmJoints(node);
         eachColour(node, [&](Colour& c) {
             kernels_->carryContacts(c.contacts.data(), c.frictions.data(), c.touches.data(), c.contacts.size());
             for (std::size_t group = 0; group < c.touches.size(); ++group)

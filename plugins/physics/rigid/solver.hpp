@@ -304,6 +304,7 @@ private:
         value(r.restitution);
     }
     void addJoint(const Joint&, Index index);
+    void calmJoints(Node node);
     void keepRows(std::vector<Joint>&);
     void noteChanges();
     void noteFlip(Collider&, Colour&, std::size_t group, std::vector<TouchChange>&);

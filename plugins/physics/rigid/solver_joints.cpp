@@ -97,21 +97,22 @@ void Solver<Real>::startJoints(const std::vector<Joint>& joints, const State& st
     }
 }
 
+/// What ran away starts from nothing in the next step, as its bodies do (speed_limit.hpp).
+template <class Real>
+void Solver<Real>::calmJoints(Node node)
+{
+    const auto calm = [](Lanes<Real>& impulse) { impulse = impulse - impulse == 0 ? impulse : Lanes<Real>{}; };
+    for (std::size_t i = 0; i < usedByJoints_[node]; ++i)
+        for (JointLanes<Real>& g : jointColours_[firstColourOf(node) + i].joints) calm(g.impulseX), calm(g.impulseY);
+}
+
 /// Their rows begin with what they are given here.
 template <class Real>
 void Solver<Real>::keepRows(std::vector<Joint>& joints)
 {
-    // What ran away starts from nothing in the next step, as its bodies do (speed_limit.hpp).
-    const auto calm = [](Real impulse) { return std::isfinite(impulse) ? impulse : Real(0); };
-    for (JointColour& colour : jointColours_)
-        for (std::size_t at = 0; at < colour.count; ++at) {
-            JointLanes<Real>& g = colour.joints[at / kWidth];
-            const std::size_t lane = at % kWidth;
-            g.impulseX[lane] = calm(g.impulseX[lane]), g.impulseY[lane] = calm(g.impulseY[lane]);
-        }
     for (auto& rows : rows_)
         for (JointRow<Real>& row : rows) {
-            row.impulse = calm(row.impulse);
+            if (!std::isfinite(row.impulse)) row.impulse = 0;
             joints[row.joint].impulse[row.slot] = static_cast<double>(row.impulse);
             joints[row.joint].substep = shape_.h;
         }
