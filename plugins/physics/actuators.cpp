@@ -4,7 +4,7 @@ namespace jet::physics {
 
 namespace {
 
-constexpr double kStiffeningReserve = 2.0;  // see soft_springs.cpp
+constexpr double kStiffeningReserve = 2.0;  // see soft_angular.cpp
 /// Radians a substep up to which a spring turns a body: whirled about faster, its lever is another one before the force
 /// has acted, and the spring would give more than it holds.
 constexpr double kMostTurn = 0.5;
@@ -36,6 +36,24 @@ double angleNow(const State& state, const AnchorPoint& a, const AnchorPoint& cen
     const Vec2 middle = centre.position(state);
     return angleBetween(a.position(state) - middle, b.position(state) - middle);
 }
+
+/// The part of its stiffness that an angular spring keeps, by the lengths of its arms: short ones would make it ever
+/// stiffer (as 1 / length²), so from where that is the reserve on it fades, and with it what the spring holds.
+struct Fading {
+    Vec2 armA, armB;
+    double perA, perB;  // 1 / units²: up to 1 / them the arms' squared lengths are short
+    double keptA, keptB;
+
+    Fading(const Vec2& a, const Vec2& b, double restA, double restB)
+        : armA(a), armB(b), perA(kStiffeningReserve / restA), perB(kStiffeningReserve / restB),
+          keptA(std::min(1.0, perA * a.squaredNorm())), keptB(std::min(1.0, perB * b.squaredNorm()))
+    {
+    }
+    double kept() const { return keptA * keptB; }
+    /// How it changes as the ends move.
+    Vec2 slopeA() const { return keptA < 1 ? Vec2(2 * keptB * perA * armA) : Vec2(0, 0); }
+    Vec2 slopeB() const { return keptB < 1 ? Vec2(2 * keptA * perB * armB) : Vec2(0, 0); }
+};
 
 /// A pure couple: on a soft body spread as a rigid turning about its centre of mass, so that it does not bend it.
 void addCouple(State& state, const BodyRecord& body, double torque)
@@ -79,6 +97,9 @@ ActuatorHandle Actuators::add(const State& state, const AngularSpringActuatorDef
                          def.kd,
                          0,
                          0};
+    const Vec2 middle = spring.centre.position(state);
+    spring.restA = (spring.a.position(state) - middle).squaredNorm();
+    spring.restB = (spring.b.position(state) - middle).squaredNorm();
     const double angle = angleNow(state, spring.a, spring.centre, spring.b);
     if (def.restFromPose) spring.restAngle = angle;
     spring.angle = spring.restAngle + wrapped(angle - spring.restAngle);
@@ -194,15 +215,17 @@ double Actuators::energy(const State& state, const Spring& spring, double h)
 double Actuators::energy(const State& state, const AngularSpring& spring, double h)
 {
     if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return 0;
-    const auto strain = [&](double back) {
+    double kept[2] = {};
+    const auto strain = [&](double back, double& hold) {
         const auto at = [&](const AnchorPoint& anchor) {
             return Vec2(anchor.position(state) - back * anchor.velocity(state));
         };
-        const Vec2 middle = at(spring.centre);
-        const double angle = angleBetween(at(spring.a) - middle, at(spring.b) - middle);
-        return spring.angle + wrapped(angle - spring.angle) - spring.restAngle;
+        const Vec2 middle = at(spring.centre), armA = at(spring.a) - middle, armB = at(spring.b) - middle;
+        hold = Fading(armA, armB, spring.restA, spring.restB).kept();
+        return spring.angle + wrapped(angleBetween(armA, armB) - spring.angle) - spring.restAngle;
     };
-    return 0.5 * spring.stiffness * strain(0) * strain(h);
+    const double now = strain(0, kept[0]), before = strain(h, kept[1]);
+    return 0.5 * spring.stiffness * std::sqrt(kept[0] * kept[1]) * now * before;
 }
 
 void Actuators::apply(State& state, Spring& spring, double h)
@@ -227,18 +250,37 @@ void Actuators::apply(State& state, Spring& spring, double h)
                           kMostTurn / h);
 }
 
+/// Where an arm is so short that the spring holds less, it draws that arm in by the slope of what it holds, implicitly,
+/// as that may be stiff, and nothing is left where the arm passes the centre, which turns it by half a turn at once: as
+/// within soft bodies (soft_angular.cpp). Nor is it wound there.
 void Actuators::apply(State& state, AngularSpring& spring, double h)
 {
     if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
     AnchorJacobian jacobian;
     if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) return;
-    spring.angle += wrapped(angleNow(state, spring.a, spring.centre, spring.b) - spring.angle);
+    const Vec2 middle = spring.centre.position(state);
+    const Fading fading(spring.a.position(state) - middle, spring.b.position(state) - middle, spring.restA,
+                        spring.restB);
+    spring.angle += wrapped(angleBetween(fading.armA, fading.armB) - spring.angle);
+    if (fading.kept() < 1) spring.angle = spring.restAngle + wrapped(spring.angle - spring.restAngle);
     const double compliance = jacobian.compliance(state);
     if (!(compliance > 0)) return;
-    const double hold = std::min(1.0, kStiffeningReserve * spring.restCompliance / compliance);
-    const double elastic = -h * spring.stiffness * hold * (spring.angle - spring.restAngle);
+    const double strain = spring.angle - spring.restAngle;
+    const double hold = std::min(fading.kept(), kStiffeningReserve * spring.restCompliance / compliance);
+    const double elastic = -h * spring.stiffness * hold * strain;
     const double rate = jacobian.rate(state) + compliance * elastic;
     jacobian.apply(state, elastic - h * spring.damping / (1 + h * spring.damping * compliance) * rate);
+
+    const double twice = spring.stiffness * fading.kept() * strain * strain;  // what it holds
+    if (!(fading.kept() < 1 && twice > 0)) return;
+    const double each = -0.5 * spring.stiffness * strain * strain;
+    const Vec2 drawA = each * fading.slopeA(), drawB = each * fading.slopeB();
+    AnchorJacobian draw;
+    draw.add(state, spring.a, drawA);
+    draw.add(state, spring.centre, -(drawA + drawB));
+    draw.add(state, spring.b, drawB);
+    const double power = draw.rate(state), give = draw.compliance(state);
+    draw.apply(state, h * (1 - h * power / twice) / (1 + h * h * give / twice));
 }
 
 }  // namespace jet::physics

@@ -85,6 +85,7 @@ private:
         AnchorPoint a, centre, b;
         double restAngle, ks, kd, angle;
         double restCompliance;
+        double restA = 0, restB = 0;        // units², of the arms at the time of adding
         double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
     };
     struct Torque {

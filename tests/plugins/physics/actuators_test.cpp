@@ -1,6 +1,8 @@
 // Scene-level springs, angular springs, torques and forces, anchored to every kind of thing.
 #include "scenes.hpp"
 
+#include <random>
+
 namespace jet::physics::test {
 
 namespace {
@@ -93,6 +95,51 @@ TEST(Actuators, AnAngularSpringBetweenBodiesHoldsItsAngle)
     double angle = std::atan2(cross(a, b), a.dot(b));
     if (angle < 0) angle += 2 * 3.14159265358979;
     EXPECT_NEAR(angle, def.restAngle, 0.02);
+}
+
+/// Kinetic, of rigid boxes of one size.
+double motionOf(const PhysicsWorld& world, const std::vector<double>& masses, double side)
+{
+    double sum = 0;
+    const BodyStates all = world.bodies();
+    for (std::size_t i = 0; i < masses.size(); ++i)
+        sum += masses[i] / 2 * (all.velocity[i].squaredNorm() + side * side / 6 * all.omega[i] * all.omega[i]);
+    return sum;
+}
+
+TEST(Actuators, AnAngularSpringGivesNoMoreThanItHeldWhereAnArmPassesItsCentre)
+{
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        std::mt19937 random(seed);
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * std::generate_canonical<double, 32>(random);
+        };
+        WorldSettings settings;
+        settings.gravity = {0, 0};
+        settings.findCollisions = false;
+        auto world = JetPhysics().createWorld(settings);
+        const double side = 10;
+        std::vector<double> masses;
+        for (int i = 0; i < 3; ++i) masses.push_back(std::pow(10, between(-1, 1)));
+        const Vec2 places[] = {{between(-90, -40), between(-20, 20)}, {0, 0}, {between(40, 90), between(-60, 60)}};
+        for (int i = 0; i < 3; ++i) world->addRigidBody(box(places[i], side, side, masses[i]));
+        AngularSpringActuatorDef def;
+        const auto near = [&](const Vec2& place) { return Vec2(place + Vec2(between(-4, 4), between(-4, 4))); };
+        def.a = {0, near(places[0])}, def.centre = {1, near(places[1])}, def.b = {2, near(places[2])};
+        def.ks = std::pow(10, between(2, 6)), def.kd = 0;
+        const Vec2 armA = def.a.point - def.centre.point, armB = def.b.point - def.centre.point;
+        const double strain = between(-2, 2);
+        def.restFromPose = false, def.restAngle = std::atan2(cross(armA, armB), armA.dot(armB)) - strain;
+        world->addAngularSpring(def);
+        world->setVelocity(0, -between(50, 300) / armA.norm() * armA);  // through the centre, or close by
+        const double held = motionOf(*world, masses, side) + def.ks / 2 * strain * strain;
+        double most = 0;
+        for (int i = 0; i < 300; ++i) {
+            world->step(kStep);
+            most = std::max(most, motionOf(*world, masses, side));
+        }
+        EXPECT_LT(most, 1.05 * held) << "seed " << seed;
+    }
 }
 
 TEST(Actuators, ForcesActAtTheirAnchors)
