@@ -55,6 +55,14 @@ struct Fading {
     Vec2 slopeB() const { return keptB < 1 ? Vec2(2 * keptA * perB * armB) : Vec2(0, 0); }
 };
 
+/// What is taken of the rate, over its compliance, for it to be divided by √(1 + h damping compliance), twice in a
+/// substep: together as by damping over h that is worked out implicitly.
+double halfBrake(double damping, double compliance, double h)
+{
+    const double all = 1 + h * damping * compliance;
+    return h * damping / (all + std::sqrt(all));
+}
+
 /// A pure couple: on a soft body spread as a rigid turning about its centre of mass, so that it does not bend it.
 void addCouple(State& state, const BodyRecord& body, double torque)
 {
@@ -174,12 +182,16 @@ void Actuators::addForces(State& state) const
     for (const Force& force : forces_) force.at.addForce(state, force.force);
 }
 
+/// Damping comes in two halves, of which the second goes through the springs the other way: dampers one after the other
+/// are together no damper of what a stiff body that they share does; those and back again are.
 void Actuators::applySprings(State& state, double h, bool backwards)
 {
-    for (std::size_t i = 0; i < springs_.size(); ++i)
-        apply(state, springs_[backwards ? springs_.size() - 1 - i : i], h);
-    for (std::size_t i = 0; i < angularSprings_.size(); ++i)
-        apply(state, angularSprings_[backwards ? angularSprings_.size() - 1 - i : i], h);
+    const auto sweep = [&](auto& springs, bool back, bool first) {
+        for (std::size_t i = 0; i < springs.size(); ++i)
+            apply(state, springs[back ? springs.size() - 1 - i : i], h, first);
+    };
+    sweep(springs_, backwards, true), sweep(angularSprings_, backwards, true);
+    sweep(angularSprings_, !backwards, false), sweep(springs_, !backwards, false);
 }
 
 void Actuators::addSpringForces(State& state)
@@ -228,7 +240,7 @@ double Actuators::energy(const State& state, const AngularSpring& spring, double
     return 0.5 * spring.stiffness * std::sqrt(kept[0] * kept[1]) * now * before;
 }
 
-void Actuators::apply(State& state, Spring& spring, double h)
+void Actuators::apply(State& state, Spring& spring, double h, bool first)
 {
     if (!spring.alive || sleeps(state, spring.a) || sleeps(state, spring.b)) return;
     const Vec2 apart = spring.a.position(state) - spring.b.position(state);
@@ -244,16 +256,15 @@ void Actuators::apply(State& state, Spring& spring, double h)
     jacobian.add(state, spring.b, -along);
     const double compliance = jacobian.compliance(state);
     if (!(compliance > 0)) return;
-    const double elastic = -h * spring.stiffness * (length - spring.restLength);
+    const double elastic = first ? -h * spring.stiffness * (length - spring.restLength) : 0;
     const double speed = jacobian.rate(state) + compliance * elastic;
-    jacobian.applyTurning(state, elastic - h * spring.damping / (1 + h * spring.damping * compliance) * speed,
-                          kMostTurn / h);
+    jacobian.applyTurning(state, elastic - halfBrake(spring.damping, compliance, h) * speed, kMostTurn / h);
 }
 
 /// Where an arm is so short that the spring holds less, it draws that arm in by the slope of what it holds, implicitly,
 /// as that may be stiff, and nothing is left where the arm passes the centre, which turns it by half a turn at once: as
 /// within soft bodies (soft_angular.cpp). Nor is it wound there.
-void Actuators::apply(State& state, AngularSpring& spring, double h)
+void Actuators::apply(State& state, AngularSpring& spring, double h, bool first)
 {
     if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
     AnchorJacobian jacobian;
@@ -267,12 +278,12 @@ void Actuators::apply(State& state, AngularSpring& spring, double h)
     if (!(compliance > 0)) return;
     const double strain = spring.angle - spring.restAngle;
     const double hold = std::min(fading.kept(), kStiffeningReserve * spring.restCompliance / compliance);
-    const double elastic = -h * spring.stiffness * hold * strain;
+    const double elastic = first ? -h * spring.stiffness * hold * strain : 0;
     const double rate = jacobian.rate(state) + compliance * elastic;
-    jacobian.apply(state, elastic - h * spring.damping / (1 + h * spring.damping * compliance) * rate);
+    jacobian.apply(state, elastic - halfBrake(spring.damping, compliance, h) * rate);
 
     const double twice = spring.stiffness * fading.kept() * strain * strain;  // what it holds
-    if (!(fading.kept() < 1 && twice > 0)) return;
+    if (!first || !(fading.kept() < 1 && twice > 0)) return;
     const double each = -0.5 * spring.stiffness * strain * strain;
     const Vec2 drawA = each * fading.slopeA(), drawB = each * fading.slopeB();
     AnchorJacobian draw;

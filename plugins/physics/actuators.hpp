@@ -99,8 +99,9 @@ private:
 
     static double energy(const State&, const Spring&, double h);
     static double energy(const State&, const AngularSpring&, double h);
-    static void apply(State&, Spring&, double h);
-    static void apply(State&, AngularSpring&, double h);
+    /// Half of the damping in h; `first`: and all that is elastic.
+    static void apply(State&, Spring&, double h, bool first);
+    static void apply(State&, AngularSpring&, double h, bool first);
 
     std::vector<Spring> springs_;
     std::vector<AngularSpring> angularSprings_;

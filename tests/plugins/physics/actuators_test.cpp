@@ -1,5 +1,5 @@
 // Scene-level springs, angular springs, torques and forces, anchored to every kind of thing.
-#include "scenes.hpp"
+#include "lattices.hpp"
 
 #include <random>
 
@@ -205,6 +205,40 @@ TEST(Actuators, ACompositeBodyRegainsItsShape)
     EXPECT_GT(areaRatio(*world, 0, ring), 0.85);
     EXPECT_LT(world->bodies().bounds[0].max.y(), 1);
     EXPECT_NEAR((world->bodies().position[0] - world->bodies().position[1]).norm(), 0, 5);
+}
+
+TEST(Actuators, StrongDampersDoNotDrawAStiffBodyOut)
+{
+    // Two dampers one after the other gave a pinned lattice what it held, and more in each substep.
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937 random(seed);
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * std::generate_canonical<double, 32>(random);
+        };
+        auto world = makeWorld({0, 100});
+        SpringDef stiff;
+        stiff.ks = 4e8, stiff.kd = 1;
+        SoftBodyDef net = sheet(3, 3, 10, stiff);
+        net.borders = {{0, 1, 2, 5, 8, 7, 6, 3}};
+        for (double& mass : net.masses) mass = std::pow(10, between(-3, 0));
+        net.movable.assign(net.particles.size(), 1);
+        net.movable[4] = 0;
+        world->addSoftBody(net);
+        for (int i = 0; i < 2; ++i) {
+            SpringActuatorDef def;
+            def.b = {0, {between(0, 20), between(0, 20)}};
+            def.a = {kNoHandle, def.b.point + Vec2(between(-20, 20), between(-20, 20))};
+            def.ks = std::pow(10, between(2, 6)), def.kd = std::pow(10, between(5, 8));
+            world->addSpring(def);
+        }
+        double widest = 0;
+        for (int i = 0; i < 120; ++i) {
+            world->step(1.0 / 30);
+            const Box& box = world->bodies().bounds[0];
+            widest = std::max({widest, box.max.x() - box.min.x(), box.max.y() - box.min.y()});
+        }
+        EXPECT_LT(widest, 21) << "seed " << seed;
+    }
 }
 
 TEST(Actuators, HundredsOfStiffSpringsOnOneBodyStayCalm)
