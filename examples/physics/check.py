@@ -26,6 +26,8 @@ class Outcome:
         """What is not as wanted; none: all is."""
         if "output" in wanted:
             return None if wanted["output"] in self.output else f"'{wanted['output']}' was not printed"
+        if "said" in wanted:
+            return None if any(wanted["said"] in said for said in self.output) else f"'{wanted['said']}' is in nothing printed"
         if "count" in wanted:
             x0, y0, x1, y1 = wanted["inside"]
             inside = [item for name, item in self.items.items() if fnmatch.fnmatch(name, wanted["count"])
@@ -50,9 +52,10 @@ class Outcome:
         return None
 
 
-def play(jet, folder, engine, steps):
-    run = subprocess.run([jet, "--json", "play", folder, "--steps", str(steps), "--physics", engine], capture_output=True,
-                         text=True)
+def play(jet, folder, engine, steps, keys):
+    pressed = ["--input", folder / keys] if keys else []
+    run = subprocess.run([jet, "--json", "play", folder, "--steps", str(steps), "--physics", engine, *pressed],
+                         capture_output=True, text=True)
     if run.returncode != 0 or run.stderr:
         return None, run.stderr.strip() or f"exit code {run.returncode}"
     return json.loads(run.stdout), None
@@ -67,7 +70,7 @@ def main():
             continue
         wanted = json.loads(expect.read_text())
         for engine in wanted["engines"]:
-            state, problem = play(jet, folder, engine, wanted["steps"])
+            state, problem = play(jet, folder, engine, wanted["steps"], wanted.get("input"))
             found = [problem] if problem else [f for f in map(Outcome(state).fault, wanted["expect"]) if f]
             print(f"{folder.name} on {engine}: {'; '.join(found) or 'as expected'}")
             faults += len(found)

@@ -11,10 +11,11 @@ import sys
 sys.dont_write_bytecode = True
 
 import rigid_demos  # noqa: E402
+import script_demos  # noqa: E402
 import soft_demos  # noqa: E402
 from scene import HERE  # noqa: E402
 
-DEMOS = {demo.__name__: demo for module in (rigid_demos, soft_demos) for demo in vars(module).values()
+DEMOS = {demo.__name__: demo for module in (rigid_demos, soft_demos, script_demos) for demo in vars(module).values()
          if getattr(demo, "__module__", "") == module.__name__}
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ GROUND, STEEL, WOOD, RED, BLUE, GREEN, GOLD, GREY = (
 
 PLUGINS = {"polygon-face": "org.jet.effect.polygon-face", "stroke": "org.jet.effect.stroke",
            "in-path-body": "org.jet.effect.in-path-body", "in-path-rigid-body": "org.jet.effect.in-path-rigid-body",
-           "joint": "org.jet.items.physics", "force-field": "org.jet.items.physics"}
+           "joint": "org.jet.items.physics", "force": "org.jet.items.physics", "force-field": "org.jet.items.physics"}
 
 
 def text(value):
@@ -111,7 +111,7 @@ class Scene:
         return "\n".join(lines)
 
     def actuator(self, kind, name, path, **properties):
-        """A spring, an angular spring or a torque."""
+        """A spring, an angular spring, a torque or a force."""
         self.item(kind, name, path, {k.replace("_", "-"): v for k, v in properties.items()})
 
     def material_table(self):
@@ -133,7 +133,7 @@ class Scene:
         self.fixed("Ground", rectangle(320, 345, 660, 50))
 
 
-def write(name, title, scene, steps, expect, engines=BOTH, picture=None):
+def write(name, title, scene, steps, expect, engines=BOTH, picture=None, keys=()):
     folder = HERE / name
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "scenes").mkdir(parents=True)
@@ -160,9 +160,15 @@ def write(name, title, scene, steps, expect, engines=BOTH, picture=None):
   </item>
 </scene>
 ''')
-    (folder / "expect.json").write_text(
-        json.dumps({"steps": steps, "engines": engines, "expect": expect}, indent=1, ensure_ascii=False) + "\n")
+    wanted = {"steps": steps, "engines": engines, "expect": expect}
+    pressed = []
+    if keys:  # (step, key, down?), played by check.py and for the picture
+        wanted["input"] = "keys.json"
+        pressed = ["--input", folder / "keys.json"]
+        events = ",\n".join(f'    {{ "step": {step}, "key": "{key}", "down": {text(down)} }}' for step, key, down in keys)
+        (folder / "keys.json").write_text(f'{{ "events": [\n{events}\n] }}\n')
+    (folder / "expect.json").write_text(json.dumps(wanted, indent=1, ensure_ascii=False) + "\n")
     subprocess.run([JET, "project", "save", folder], check=True, stdout=subprocess.DEVNULL)
     # `picture` is the step of the README's picture.
     subprocess.run([JET, "play", folder, "--steps", str(picture or steps), "--width", "640", "--height", "360", "--physics",
-                    engines[0], "--snapshot", HERE / "pictures" / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)
+                    engines[0], *pressed, "--snapshot", HERE / "pictures" / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)

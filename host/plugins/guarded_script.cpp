@@ -5,7 +5,9 @@ namespace jet::host {
 
 namespace {
 
-class GuardedRuntime final : public ScriptRuntime, GuardedObject<ScriptRuntime, Callback::RuntimeDestroy> {
+class GuardedRuntime final : public ScriptRuntime,
+                             public ContactListening,
+                             GuardedObject<ScriptRuntime, Callback::RuntimeDestroy> {
 public:
     using GuardedObject::GuardedObject;
 
@@ -28,6 +30,16 @@ public:
     {
         return ask(
             Callback::RuntimeListensTo, [&](ScriptRuntime& runtime) { return runtime.listensTo(kind); }, false);
+    }
+    bool listensToContacts() const override
+    {
+        return ask(
+            Callback::RuntimeListensTo,
+            [&](ScriptRuntime& runtime) {
+                const auto* contacts = dynamic_cast<const ContactListening*>(&runtime);
+                return contacts && contacts->listensToContacts();
+            },
+            false);
     }
 };
 

@@ -14,6 +14,15 @@ public:
     void build(const Item&, WorldBuilder&) const override;
 };
 
+/// Pushes the body under its centre, always the same way.
+class ForceType final : public ItemType {
+public:
+    const PropertyTable& properties() const override;
+    std::string label() const override { return "Force"; }
+    void paint(const Item&, const Path&, PaintPurpose, Painter&) const override;
+    void build(const Item&, WorldBuilder&) const override;
+};
+
 /// Pushes everything within its path.
 class ForceFieldType final : public ItemType {
 public:

@@ -4,6 +4,7 @@
 #include "item_types.hpp"
 
 #include <array>
+#include <utility>
 
 namespace jet::physics_items {
 
@@ -126,6 +127,8 @@ void JointType::build(const Item& item, WorldBuilder& builder) const
     if (def.a.body == def.b.body)
         return builder.warn(item, def.a.body == kNoHandle ? "no body lies under either end; it does nothing"
                                                           : "both ends lie in one body; it does nothing");
+    // A mouse joint pulls b: Box2D's moves nothing else.
+    if (def.kind == Kind::Mouse && def.b.body == kNoHandle) std::swap(def.a, def.b);
     if (hasPivot(def.kind)) def.a.point = def.b.point = pivotOf(path);
     if (def.kind == Kind::Pulley) def.groundA = path.segment(1).point, def.groundB = path.segment(count - 2).point;
     try {

@@ -5,5 +5,6 @@
 JET_PLUGIN(plugin)
 {
     plugin.itemType<jet::physics_items::JointType>("joint");
+    plugin.itemType<jet::physics_items::ForceType>("force");
     plugin.itemType<jet::physics_items::ForceFieldType>("force-field");
 }

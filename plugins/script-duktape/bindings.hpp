@@ -11,5 +11,6 @@ void bindKeyboard(duk_context* ctx, duk_idx_t kit);
 void bindView(duk_context* ctx, duk_idx_t kit);       ///< scene.GC.swingSimulationGP, CC.getScene
 void bindContext(duk_context* ctx, duk_idx_t kit);    ///< ctx
 void bindColliding(duk_context* ctx, duk_idx_t kit);  ///< ctx.colTab
+void bindQueries(duk_context* ctx, duk_idx_t kit);    ///< ctx.rayCast, ...
 
 }  // namespace jet::duktape

@@ -57,7 +57,7 @@ void putPointer(duk_context* ctx, const Play& play, const PointerEvent& pointer)
     putModifiers(ctx, pointer.modifiers);
 }
 
-void putCollision(duk_context* ctx, Play& play, const ScriptEvent& event)
+void putBodies(duk_context* ctx, Play& play, const ScriptEvent& event)
 {
     const Item* a = play.simulation.scene().items().find(event.bodyA);
     const Item* b = play.simulation.scene().items().find(event.bodyB);
@@ -69,6 +69,11 @@ void putCollision(duk_context* ctx, Play& play, const ScriptEvent& event)
     duk_put_prop_literal(ctx, -2, "bodyA");
     play.items.pushBody(ctx, b);
     duk_put_prop_literal(ctx, -2, "bodyB");
+}
+
+void putCollision(duk_context* ctx, Play& play, const ScriptEvent& event)
+{
+    putBodies(ctx, play, event);
     put(ctx, play, "point", event.contact.point);
     put(ctx, play, "normal", event.contact.normal);
     put(ctx, "penetration", event.contact.penetration);
@@ -93,6 +98,11 @@ void pushEvent(duk_context* ctx, const ScriptEvent& event)
     case ScriptEventKind::KeyUp:
     case ScriptEventKind::KeyTyped: putKey(ctx, event.key); break;
     case ScriptEventKind::BodyCollision: putCollision(ctx, play, event); break;
+    case ScriptEventKind::ContactBegin:
+        putBodies(ctx, play, event);
+        put(ctx, "impulse", event.contact.impulse);
+        break;
+    case ScriptEventKind::ContactEnd: putBodies(ctx, play, event); break;
     case ScriptEventKind::PointerDown:
     case ScriptEventKind::PointerUp:
     case ScriptEventKind::PointerMove: putPointer(ctx, play, event.pointer); break;

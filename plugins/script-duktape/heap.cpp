@@ -29,7 +29,7 @@ void pushKit(duk_context* ctx)
     duk_push_global_object(ctx);
     duk_put_prop_literal(ctx, kit, "global");
     for (const char* prototype :
-         {"Item", "Body", "Torque", "Spring", "View", "Position", "Velocity", "Gravity", "ctx"}) {
+         {"Item", "Body", "Torque", "Spring", "Force", "Joint", "View", "Position", "Velocity", "Gravity", "ctx"}) {
         duk_push_object(ctx);
         duk_put_prop_string(ctx, kit, prototype);
     }
@@ -38,11 +38,13 @@ void pushKit(duk_context* ctx)
     bindView(ctx, kit);
     bindContext(ctx, kit);
     bindColliding(ctx, kit);
+    bindQueries(ctx, kit);
     bindEvents(ctx, kit);
     bindItems(ctx, kit);
     bindBodies(ctx, kit);
     bindVectors(ctx, kit);
     bindActuators(ctx, kit);
+    bindJoints(ctx, kit);
 }
 
 void keepPrototypes(duk_context* ctx, Play& play, duk_idx_t kit)
@@ -61,6 +63,8 @@ void keepPrototypes(duk_context* ctx, Play& play, duk_idx_t kit)
     p.body = kept("Body");
     p.torque = kept("Torque");
     p.spring = kept("Spring");
+    p.force = kept("Force");
+    p.joint = kept("Joint");
 }
 
 duk_ret_t setUp(duk_context* ctx, void* udata)

@@ -17,11 +17,12 @@ ItemSlot& ItemTable::slot(duk_context* ctx, const Item& item)
         slots_.push_back({});
         slots_.back().item = &item;
         slots_.back().body = simulation_.bodyOf(item.id());
+        slots_.back().joint = simulation_.jointOf(item.id());
     }
     ItemSlot& slot = slots_[found->second];
     if (slot.object) return slot;
 
-    // The object of the item, with body, torque and spring as fixed properties where it has them.
+    // The object of the item, with body, torque, spring, force and joint as fixed properties where it has them.
     Play& play = Play::of(ctx);
     const auto begin = [&](void* prototype, const char* hiddenKey) {
         duk_push_object(ctx);
@@ -55,6 +56,8 @@ ItemSlot& ItemTable::slot(duk_context* ctx, const Item& item)
     if (item.is<TorqueItem>()) part("torque", play.prototypes.torque, DUK_HIDDEN_SYMBOL("torque"));
     if (item.is<SpringItem>() || item.is<RSpringItem>())
         part("spring", play.prototypes.spring, DUK_HIDDEN_SYMBOL("spring"));
+    if (simulation_.forceOf(item.id()) != kNoHandle) part("force", play.prototypes.force, DUK_HIDDEN_SYMBOL("force"));
+    if (slot.joint != kNoHandle) part("joint", play.prototypes.joint, DUK_HIDDEN_SYMBOL("joint"));
     slot.object = play.keep(ctx);
     return slot;
 }

@@ -19,6 +19,7 @@ namespace jet::duktape {
 struct ItemSlot {
     const Item* item = nullptr;  ///< the playing scene's tree does not change
     BodyHandle body = kNoHandle;
+    JointHandle joint = kNoHandle;
     void* object = nullptr;
     void* bodyObject = nullptr;
     void* position = nullptr;  ///< the live vectors of the body, made when first asked for
@@ -47,10 +48,11 @@ private:
 };
 
 /// Adds what is in C++ to the prototypes: of items (items.cpp), bodies and live vectors (bodies.cpp), torques
-/// (actuators.cpp).
+/// (actuators.cpp), joints (joints.cpp).
 void bindItems(duk_context* ctx, duk_idx_t kit);
 void bindBodies(duk_context* ctx, duk_idx_t kit);
 void bindVectors(duk_context* ctx, duk_idx_t kit);
 void bindActuators(duk_context* ctx, duk_idx_t kit);
+void bindJoints(duk_context* ctx, duk_idx_t kit);
 
 }  // namespace jet::duktape

@@ -19,7 +19,7 @@ struct EventName {
     ScriptEventKind kind;
     const char* name;
 };
-inline constexpr std::array<EventName, 10> kEventNames{{
+inline constexpr std::array<EventName, 12> kEventNames{{
     {ScriptEventKind::Step, "onStep"},
     {ScriptEventKind::PrePaint, "onPrePaint"},
     {ScriptEventKind::PostPaint, "onPostPaint"},
@@ -30,6 +30,8 @@ inline constexpr std::array<EventName, 10> kEventNames{{
     {ScriptEventKind::PointerDown, "onPointerDown"},
     {ScriptEventKind::PointerUp, "onPointerUp"},
     {ScriptEventKind::PointerMove, "onPointerMove"},
+    {ScriptEventKind::ContactBegin, "onContactBegin"},
+    {ScriptEventKind::ContactEnd, "onContactEnd"},
 }};
 const char* eventName(ScriptEventKind kind);
 std::optional<ScriptEventKind> eventKind(std::string_view name);

@@ -28,6 +28,8 @@ struct Prototypes {
     void* body = nullptr;
     void* torque = nullptr;
     void* spring = nullptr;
+    void* force = nullptr;
+    void* joint = nullptr;
     void* tracebackGetter = nullptr;  ///< of Error.prototype.stack
 };
 

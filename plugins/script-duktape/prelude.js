@@ -78,7 +78,7 @@
 
     // --- Items, bodies and actuators: most of them is in C++.
 
-    ['body', 'torque', 'spring'].forEach(function (part) { Object.defineProperty(kit.Item, part, { value: null }); });
+    ['body', 'torque', 'spring', 'force', 'joint'].forEach(function (part) { Object.defineProperty(kit.Item, part, { value: null }); });
     hidden(kit.Item, {
         toString: function () { return this.name; },
         getParent: function () { return this.parent; }
@@ -89,20 +89,38 @@
         toString: function () { return 'body of ' + this.item.name; }
     });
 
-    // A spring's values are the properties of its item, under names of the language.
-    [['ks', 'ks'], ['kd', 'kd'], ['restLength', 'rest-length'], ['tearRatio', 'tear-ratio'], ['restAngle', 'rest-angle']]
-        .forEach(function (pair) {
-            Object.defineProperty(kit.Spring, pair[0], {
+    // The values of springs and motors are the properties of their items, under names of the language.
+    function properties(prototype, pairs) {
+        pairs.forEach(function (pair) {
+            Object.defineProperty(prototype, pair[0], {
                 enumerable: true,
                 get: function () { return this.item.has(pair[1]) ? this.item.get(pair[1]) : undefined; },
                 set: function (value) { this.item.set(pair[1], value); }
             });
         });
+    }
+    properties(kit.Spring, [['ks', 'ks'], ['kd', 'kd'], ['restLength', 'rest-length'], ['tearRatio', 'tear-ratio'],
+        ['restAngle', 'rest-angle']]);
+    properties(kit.Force, [['value', 'value']]);
+    hidden(kit.Force, {
+        getValue: function () { return this.value; },
+        setValue: function (x, y) { this.value = typeof x === 'object' ? x : { x: x, y: y }; }
+    });
+    properties(kit.Joint, [['kind', 'kind'], ['motor', 'driven'], ['motorSpeed', 'motor-speed'], ['maxForce', 'max-force'],
+        ['maxTorque', 'max-torque']]);
+    hidden(kit.Joint, {
+        setMotor: function (on, speed) {
+            if (typeof on !== 'boolean') throw new TypeError("setMotor: 'on' must be true or false");
+            if (speed !== undefined) this.motorSpeed = speed;  // refuses what is no number before anything changed
+            this.motor = on;
+        },
+        toString: function () { return 'joint ' + this.item.name; }
+    });
 
     // --- Events
 
     var types = ['onStep', 'onPrePaint', 'onPostPaint', 'onKeyUp', 'onKeyDown', 'onKeyTyped', 'onBodyCollision',
-        'onPointerDown', 'onPointerUp', 'onPointerMove'];
+        'onPointerDown', 'onPointerUp', 'onPointerMove', 'onContactBegin', 'onContactEnd'];
     var JetSystem = {};
     types.forEach(function (type) { JetSystem['EVENT_TYPE_' + type.toUpperCase()] = type; });
     JetSystem.addEventListener = kit.addEventListener;

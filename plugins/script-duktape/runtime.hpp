@@ -8,13 +8,17 @@
 
 namespace jet::duktape {
 
-class Runtime final : public ScriptRuntime {
+class Runtime final : public ScriptRuntime, public ContactListening {
 public:
     explicit Runtime(Simulation& simulation, const Limits& limits = {});
 
     Result<void> run(const Item& script) override;
     void dispatch(const ScriptEvent& event) override;
     bool listensTo(ScriptEventKind kind) const override { return play_.listeners.any(kind); }
+    bool listensToContacts() const override
+    {
+        return listensTo(ScriptEventKind::ContactBegin) || listensTo(ScriptEventKind::ContactEnd);
+    }
 
     /// Bytes in use by all scripts.
     std::size_t memoryUsed() const { return play_.budget.memoryUsed(); }

@@ -91,6 +91,10 @@ interface Item {
     readonly torque: Torque | null;
     /** Null for what is no spring or angular spring. */
     readonly spring: Spring | null;
+    /** Null for what is no constant force, and for one without a body under its centre. */
+    readonly force: Force | null;
+    /** Null for what is no joint, and for one that could not be made when play started. */
+    readonly joint: Joint | null;
     /** The name. */
     toString(): string;
 }
@@ -154,6 +158,46 @@ interface Spring {
     readonly restAngle: number | undefined;
 }
 
+/** A constant force on the body under the centre of its item, in directions of the scene. @since 0.1 */
+interface Force {
+    readonly item: Item;
+    /** mass·unit/s². A copy: set it as a whole. */
+    value: Vec2d;
+    getValue(): Vec2d;
+    setValue(x: number, y: number): void;
+    setValue(force: Point): void;
+}
+
+/** Holds two bodies together, or one to the background. Angles and torques grow clockwise on screen. @since 0.1 */
+interface Joint {
+    readonly item: Item;
+    readonly kind: "revolute" | "prismatic" | "weld" | "distance" | "rope" | "wheel" | "motor" | "mouse" | "pulley";
+    /** Angle of b against a in radians, or travel or distance in units, whichever the kind has; since it was made. */
+    readonly value: number;
+    /** On b, of the last step; mass·unit/s². */
+    readonly force: Vec2d;
+    /** On b, of the last step. */
+    readonly torque: number;
+    readonly broken: boolean;
+    /** Where it holds the two, in the scene. */
+    readonly pointA: Vec2d;
+    readonly pointB: Vec2d;
+    /** Is the motor on? */
+    motor: boolean;
+    /** rad/s, or units/s along a slide. */
+    motorSpeed: number;
+    /** The most the motor or mouse has. */
+    maxForce: number;
+    maxTorque: number;
+    setMotor(on: boolean, speed?: number): void;
+    /** Moves the end that holds the background: what a mouse joint pulls to. */
+    setTarget(x: number, y: number): void;
+    setTarget(point: Point): void;
+    /** For good: it holds nothing from the next step on. */
+    remove(): void;
+    toString(): string;
+}
+
 /** What listeners are called with. @since 0.1 */
 interface JetEvent {
     type: EventType;
@@ -205,9 +249,26 @@ interface CollisionEvent extends JetEvent {
     impulse: number;
 }
 
+/** Two bodies that did not touch begin to, or two that did end; each pair by turns. @since 0.1 */
+interface ContactEndEvent extends JetEvent {
+    itemA: Item;
+    itemB: Item;
+    bodyA: Body;
+    bodyB: Body;
+}
+/** @since 0.1 */
+interface ContactBeginEvent extends JetEvent {
+    itemA: Item;
+    itemB: Item;
+    bodyA: Body;
+    bodyB: Body;
+    /** Of the step in which they began, along their normals. */
+    impulse: number;
+}
+
 /** @since 0.1 */
 type EventType = "onStep" | "onPrePaint" | "onPostPaint" | "onKeyUp" | "onKeyDown" | "onKeyTyped" | "onBodyCollision"
-    | "onPointerDown" | "onPointerUp" | "onPointerMove";
+    | "onPointerDown" | "onPointerUp" | "onPointerMove" | "onContactBegin" | "onContactEnd";
 
 /** Events, and the way to another scene. @since 0.1 */
 declare var JetSystem: {
@@ -221,10 +282,14 @@ declare var JetSystem: {
     readonly EVENT_TYPE_ONPOINTERDOWN: "onPointerDown";
     readonly EVENT_TYPE_ONPOINTERUP: "onPointerUp";
     readonly EVENT_TYPE_ONPOINTERMOVE: "onPointerMove";
+    readonly EVENT_TYPE_ONCONTACTBEGIN: "onContactBegin";
+    readonly EVENT_TYPE_ONCONTACTEND: "onContactEnd";
     /** Calls the function at each such event, in the order of adding; once, however often it was added. */
     addEventListener(type: "onStep" | "onPrePaint" | "onPostPaint", listener: (event: StepEvent) => void): void;
     addEventListener(type: "onKeyUp" | "onKeyDown" | "onKeyTyped", listener: (event: KeyboardEvent) => void): void;
     addEventListener(type: "onBodyCollision", listener: (event: CollisionEvent) => void): void;
+    addEventListener(type: "onContactBegin", listener: (event: ContactBeginEvent) => void): void;
+    addEventListener(type: "onContactEnd", listener: (event: ContactEndEvent) => void): void;
     addEventListener(type: "onPointerDown" | "onPointerUp" | "onPointerMove", listener: (event: PointerEvent) => void): void;
     removeEventListener(type: EventType, listener: Function): void;
     /** Goes to another scene after this step. */
@@ -289,8 +354,44 @@ interface SceneView {
     setViewAnchor(point: Point): void;
 }
 
+/** Where a ray or a shape first meets a body, or the nearest point of one. @since 0.1 */
+interface Hit {
+    /** Null where no item draws the body. */
+    readonly item: Item | null;
+    readonly body: Body | null;
+    /** In the scene. */
+    readonly point: Vec2d;
+    /** Length 1, out of the body. */
+    readonly normal: Vec2d;
+    /** 0 to 1 of the way, or of the reach. */
+    readonly fraction: number;
+    /** The same in units: how far the shape or ray came, or how far the point is. */
+    readonly distance: number;
+}
+
+/** Which bodies a query sees. @since 0.1 */
+interface QueryOptions {
+    /** Bits: the layers that are seen; all, unless it is given. */
+    mask?: number;
+    /** Is looked through. */
+    except?: Item | Body;
+    /** Are sensors seen? They are not, unless it is given. */
+    sensors?: boolean;
+}
+
+/** A circle, a capsule around a line, or a convex polygon of 3 to 8 points; in the scene. @since 0.1 */
+type CastShape = { center: Point; radius: number } | { from: Point; to: Point; radius: number } | { points: Point[] };
+
 /** The physical context of the running scene. @since 0.1 */
 declare var ctx: {
+    /** The first body on the way from one place to another; null for none. */
+    rayCast(from: Point, to: Point, options?: QueryOptions): Hit | null;
+    /** The first body that a shape meets when it is moved without turning; null for none. */
+    shapeCast(shape: CastShape, way: Point, options?: QueryOptions): Hit | null;
+    /** Items whose bodies meet the box, in the order of the tree. */
+    overlapping(box: { x: number; y: number; width: number; height: number }, options?: QueryOptions): Item[];
+    /** The point of any body that is nearest, no farther than `reach`; null for none. */
+    nearest(point: Point, reach: number, options?: QueryOptions): Hit | null;
     /** colTab[a.body.cti][b.body.cti] is true while the two touch. */
     readonly colTab: { readonly [cti: number]: { readonly [cti: number]: boolean } };
     /** units/s². Live: `ctx.gravity.y = 0` acts at once. */

@@ -34,6 +34,7 @@ Exporter::~Exporter() = default;
 PoseSource::~PoseSource() = default;
 const LiveBody* PoseSource::liveBody(const Item&) const { return nullptr; }
 ScriptRuntime::~ScriptRuntime() = default;
+ContactListening::~ContactListening() = default;
 ScriptEngine::~ScriptEngine() = default;
 WorldBuilder::~WorldBuilder() = default;
 Editor::~Editor() = default;

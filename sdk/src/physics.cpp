@@ -35,9 +35,21 @@ JointState PhysicsWorld::joint(JointHandle) const { refuse("joints"); }
 void PhysicsWorld::setMotor(JointHandle, bool, double) { refuse("joints"); }
 void PhysicsWorld::setJointTarget(JointHandle, const Vec2&) { refuse("joints"); }
 void PhysicsWorld::removeJoint(JointHandle) { refuse("joints"); }
-std::optional<CastHit> PhysicsWorld::rayCast(const Vec2&, const Vec2&, const QueryFilter&) const { return {}; }
-std::optional<CastHit> PhysicsWorld::shapeCast(const ShapeDef&, const Vec2&, const QueryFilter&) const { return {}; }
-std::vector<BodyHandle> PhysicsWorld::overlapping(const Box&, const QueryFilter&) const { return {}; }
-std::optional<CastHit> PhysicsWorld::nearest(const Vec2&, double, const QueryFilter&) const { return {}; }
+std::optional<CastHit> PhysicsWorld::rayCast(const Vec2&, const Vec2&, const QueryFilter&) const
+{
+    refuse("queries of what is where");
+}
+std::optional<CastHit> PhysicsWorld::shapeCast(const ShapeDef&, const Vec2&, const QueryFilter&) const
+{
+    refuse("queries of what is where");
+}
+std::vector<BodyHandle> PhysicsWorld::overlapping(const Box&, const QueryFilter&) const
+{
+    refuse("queries of what is where");
+}
+std::optional<CastHit> PhysicsWorld::nearest(const Vec2&, double, const QueryFilter&) const
+{
+    refuse("queries of what is where");
+}
 
 }  // namespace jet

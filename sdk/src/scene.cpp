@@ -29,6 +29,13 @@ const PropertyTable& Scene::settingsTable()
         flag("find-collisions", "Find collisions", true),
         flag("resolve-collisions", "Resolve collisions", true),
         real("time-step", "Time step", 1.0 / 60).in("s").range(1e-5, 1).says("Simulated seconds a step."),
+        choice("method", "Method", {"automatic", "semi-implicit-euler"})
+            .says("Automatic: whatever holds best; semi-implicit Euler: one substep, forces alone, for teaching. It "
+                  "may explode."),
+        integer("substeps", "Substeps", 0)
+            .range(0, 4096)
+            .says("Of the rigid solver a step; more are stiffer and slower. 0: as the engine sees fit."),
+        flag("allow-sleep", "May sleep", true).says("May what rests be left out of the computation?"),
         text("physics", "Physics engine", "").says("Empty: the first one installed."),
         color("background", "Background", Color{255, 255, 255, 255}),
         real("page-width", "Page width", 0).in("units").range(0, 1e7).says("0: no page; pictures show all items."),

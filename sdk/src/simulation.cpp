@@ -98,6 +98,7 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     }
     d.scripts = scripts->createRuntime(*simulation);
     if (!d.scripts) return simulation;
+    d.contactListening = dynamic_cast<const ContactListening*>(d.scripts.get());
     d.scene->root().walk([&](const Item& item) {
         if (!item.is<ScriptItem>()) return;
         if (const auto ran = d.scripts->run(item); !ran)
@@ -113,7 +114,7 @@ void Simulation::step()
     d.world->step(d.timeStep);
     ++d.steps;
     if (!d.scripts) return;
-    d.dispatchCollisions();
+    d.dispatchTouches();
     // Once a step, not once a painted frame: what a listener does must not depend on a window and its refresh rate.
     d.scripts->dispatch(ScriptEvent{ScriptEventKind::PrePaint, {}, {}, {}, {}, {}});
     d.scripts->dispatch(ScriptEvent{ScriptEventKind::PostPaint, {}, {}, {}, {}, {}});
@@ -134,6 +135,8 @@ BodyHandle Simulation::bodyOf(ItemId item) const
 
 ItemId Simulation::itemOf(BodyHandle body) const
 {
+    // Bodies of items come first, in the order of their handles.
+    if (body < d_->bodies.size() && d_->bodies[body].body == body) return d_->bodies[body].item;
     for (const BodyBinding& binding : d_->bodies)
         if (binding.body == body) return binding.item;
     return {};

@@ -96,6 +96,19 @@ void Simulation::Private::bringBack(const Item& item)
     }
 }
 
+template <class Def>
+std::uint32_t Simulation::Private::firstOf(ItemId item) const
+{
+    const auto found = parts.find(item);
+    if (found == parts.end()) return kNoHandle;
+    for (const ItemPart& part : found->second.parts)
+        if (std::holds_alternative<Def>(part.def)) return part.handle;
+    return kNoHandle;
+}
+
+JointHandle Simulation::jointOf(ItemId item) const { return d_->firstOf<JointDef>(item); }
+ActuatorHandle Simulation::forceOf(ItemId item) const { return d_->firstOf<ForceActuatorDef>(item); }
+
 void Simulation::setItemProperty(ItemId id, std::string_view property, Value value)
 {
     const Item* item = d_->scene->items().find(id);

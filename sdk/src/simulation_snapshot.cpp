@@ -83,6 +83,7 @@ void Simulation::restore(std::span<const std::byte> state)
     d_->view.view.anchor = Vec2(head.anchorX, head.anchorY);
     d_->view.view.scale = head.scale;
     // What was worked out for this step belongs to another past.
+    d_->eventsFollow = false;
     std::fill(d_->posedAt.begin(), d_->posedAt.end(), 0);
     for (BodyBinding& binding : d_->bodies) binding.liveAt = 0;
 }

@@ -23,6 +23,9 @@ struct Simulation::Private {
     std::map<ItemId, ItemParts> parts;
     std::map<ItemId, double> torques;
     std::unique_ptr<ScriptRuntime> scripts;
+    const ContactListening* contactListening = nullptr;       ///< of `scripts`; null: it hears nothing of them
+    std::set<std::pair<BodyHandle, BodyHandle>> touchesTold;  ///< whose beginning scripts heard of, and no end
+    bool eventsFollow = false;  ///< do the engine's events of the next step go on from `touchesTold`?
 
     double timeStep = 1.0 / 60;
     std::uint64_t steps = 0;
@@ -79,22 +82,15 @@ struct Simulation::Private {
     void changeBody(const Item& item, std::size_t effect, const std::optional<BodyDef>& before);
     void changeItem(const Item& item);
     void bringBack(const Item& item);
+    template <class Def>
+    std::uint32_t firstOf(ItemId item) const;
     void change(const Item& item, const PropertyPlace& place, std::string_view property, const Value& value);
 
-    // One event a pair of bodies and step: scripts ask for more through the contact itself.
-    void dispatchCollisions()
-    {
-        if (!scripts->listensTo(ScriptEventKind::BodyCollision)) return;
-        std::set<std::pair<BodyHandle, BodyHandle>> seen;
-        const std::vector<Contact> contacts(world->contacts().begin(), world->contacts().end());
-        for (const Contact& contact : contacts) {
-            if (!seen.insert(std::minmax(contact.bodyA, contact.bodyB)).second) continue;
-            ScriptEvent event{ScriptEventKind::BodyCollision, {}, {}, {}, {}, contact};
-            event.bodyA = bodies.at(contact.bodyA).item;
-            event.bodyB = bodies.at(contact.bodyB).item;
-            scripts->dispatch(event);
-        }
-    }
+    // What scripts hear of touches; see simulation_contacts.cpp.
+    std::vector<ContactEvent> contactEvents();
+    void dispatchContacts(const std::vector<ContactEvent>& events);
+    void dispatchCollisions(const std::vector<Contact>& contacts);
+    void dispatchTouches();
 };
 
 }  // namespace jet

@@ -18,6 +18,9 @@ WorldSettings worldSettings(const Scene& scene, int threads)
     settings.applyDamping = scene.setting("apply-damping").as<bool>();
     settings.findCollisions = scene.setting("find-collisions").as<bool>();
     settings.resolveCollisions = scene.setting("resolve-collisions").as<bool>();
+    settings.substeps = static_cast<int>(scene.setting("substeps").as<std::int64_t>());
+    settings.allowSleep = scene.setting("allow-sleep").as<bool>();
+    if (scene.setting("method").as<std::string>() == "semi-implicit-euler") settings.method = Method::SemiImplicitEuler;
     settings.materialCount = static_cast<std::uint32_t>(scene.materials().size());
     settings.materials = scene.materials().pairs();
     settings.threads = threads;

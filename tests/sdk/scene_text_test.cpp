@@ -257,6 +257,8 @@ const std::vector<Wrong>& wrongs()
          "<pair a=\"a\" b=\"ice\" friction=\"1\" restitution=\"2\"/></materials>",
          "level.scene:3:2: error: the materials 'a' and 'ice': restitution is 2; it must be from 0 to 1, where 0 is "
          "no"},
+        {"SubstepsOutOfRange", "<settings><property id=\"substeps\">4097</property></settings>", "must be from"},
+        {"MethodThereIsNot", "<settings><property id=\"method\">guess</property></settings>", "semi-implicit-euler"},
         {"GravityNoEngineComputesWith", "<settings><property id=\"gravity\">0 1e40</property></settings>",
          "level.scene:2:12: error: Property \"gravity\" must be from"},
         {"NotUtf8", item("", "type=\"shape\" id=\"1\" name=\"\xc3\x28\""),

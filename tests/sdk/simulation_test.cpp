@@ -318,6 +318,18 @@ TEST_F(ScriptedSimulationTest, OutputIsBounded)
     EXPECT_EQ(simulation->output().back().text, "10099");
 }
 
+TEST_F(ScriptedSimulationTest, AnEngineWithoutQueriesSaysSoInsteadOfFindingNothing)
+{
+    addBody(Box({0, 0}, {10, 10}));
+    const auto simulation = start();
+    const PhysicsWorld& world = simulation->world();
+    const auto refusal = HasSubstr("has no queries of what is where; choose another one");
+    EXPECT_THAT(failure([&] { world.rayCast({-10, 5}, {20, 5}); }), refusal);
+    EXPECT_THAT(failure([&] { world.shapeCast({ShapeDef::Kind::Circle, {{-10, 5}}, 2}, {20, 0}); }), refusal);
+    EXPECT_THAT(failure([&] { world.overlapping(Box({0, 0}, {1, 1})); }), refusal);
+    EXPECT_THAT(failure([&] { world.nearest({-10, 5}, 100); }), refusal);
+}
+
 TEST_F(ScriptedSimulationTest, LiveTuningIsChecked)
 {
     const Item& body = addBody(Box({0, 0}, {10, 10}));

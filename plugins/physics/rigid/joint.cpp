@@ -289,6 +289,7 @@ void addRows(const Joint& joint, Index index, const JointFrame& f, const BodySta
             row.error = static_cast<Real>(apart[i]);
             make.makeSpring(row, def.hertz > 0 ? def.hertz : 4);
             row.most = static_cast<Real>(def.maxForce * h), row.least = -row.most;
+            row.strongest = static_cast<Real>(def.maxForce);
         }
         break;
     case JointDef::Kind::Pulley: addPulley(joint, f, make); break;

@@ -29,7 +29,8 @@ struct JointRow {
     bool velocityOnly = false;  // motors
     bool limit = false;         // one-sided: error may be positive
     Softness<Real> spring;
-    Real frequency = 0;  // of that, rad / s
+    Real frequency = 0;           // of that, rad / s
+    Real strongest = Real(1e30);  // of that, mass units / s²; a mouse joint's is limited
     Real mass = 0, impulse = 0;
     Real far = Real(1e30);  // units or radians: greater errors are not pushed out at once
     Real given = 0;         // by a motor in the step, mass units² / s² or mass / s²
@@ -42,7 +43,14 @@ struct JointRow {
     Real moving(const BodyState<Real>* bodies) const;
     Real moved(const BodyState<Real>* bodies) const;
     /// Of a spring of its own; its stiffness is that of the effective mass, and changes with it.
-    Real springEnergy(Real at) const { return soft ? mass * frequency * frequency * at * at / 2 : 0; }
+    Real springEnergy(Real at) const
+    {
+        const Real stiffness = mass * frequency * frequency;
+        if (!soft || !(stiffness > 0)) return 0;
+        const Real yields = strongest / stiffness;  // beyond it pulls with all it has, as a weight does
+        const Real far = std::abs(at);
+        return far <= yields ? stiffness * at * at / 2 : strongest * (far - yields / 2);
+    }
     /// Of its impulse, when it is a row of turning alone; mass units² / s.
     double torqueOfB() const
     {

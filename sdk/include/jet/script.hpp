@@ -23,15 +23,17 @@ enum class ScriptEventKind {
     BodyCollision,
     PointerDown,
     PointerUp,
-    PointerMove
+    PointerMove,
+    ContactBegin,  ///< to runtimes that are ContactListening alone
+    ContactEnd     ///< the same
 };
 
 struct ScriptEvent {
     ScriptEventKind kind;
     KeyEvent key;          ///< Key*
     PointerEvent pointer;  ///< Pointer*
-    ItemId bodyA, bodyB;   ///< BodyCollision
-    Contact contact;       ///< BodyCollision
+    ItemId bodyA, bodyB;   ///< BodyCollision, Contact*
+    Contact contact;       ///< BodyCollision; of ContactBegin its impulse alone
 };
 
 /// The scripts of one running simulation. Used on the simulation's thread only; destroyed before the Simulation.
@@ -45,6 +47,16 @@ public:
     virtual void dispatch(const ScriptEvent& event) = 0;
     /// Is anyone listening? Lets the simulation skip work.
     virtual bool listensTo(ScriptEventKind kind) const = 0;
+};
+
+/// A ScriptRuntime that derives from this one, too, is told of touches that begin and end, each pair of bodies by
+/// turns: who begins to listen later is told first of all that touch, and after Simulation::restore() of all that
+/// differs.
+class JET_API ContactListening {
+public:
+    virtual ~ContactListening();
+    /// Is anyone listening to ContactBegin or ContactEnd?
+    virtual bool listensToContacts() const = 0;
 };
 
 class JET_API ScriptEngine {

@@ -79,6 +79,10 @@ public:
     BodyHandle bodyOf(ItemId item) const;  ///< kNoHandle when the item has no body
     ItemId itemOf(BodyHandle body) const;
     ActuatorHandle actuatorOf(ItemId item) const;
+    /// The first constant force the item added when play started; kNoHandle when it added none.
+    ActuatorHandle forceOf(ItemId item) const;
+    /// The first joint the item added when play started; kNoHandle when it added none.
+    JointHandle jointOf(ItemId item) const;
     const Path* pose(const Item& item) const override;
     const LiveBody* liveBody(const Item& item) const override;
     /// In the thesis's sign: positive turns left (counter-clockwise on screen).

@@ -62,14 +62,49 @@ TEST_F(InPathRigidBodyTest, ThePolygonGoesThroughSegmentsAndIntermediatePoints)
 TEST_F(InPathRigidBodyTest, WithoutIntermediatePointsThePolygonFollowsTheCurves)
 {
     for (const double radius : {0.01, 50.0, 1e5}) {
-        const auto rings = built(body(jet::Path::ellipse({{-radius, -radius}, {radius, radius}}))).borders;
+        const auto rings = built(body(jet::Path::ellipse({{-radius, -2 * radius}, {radius, 2 * radius}}))).borders;
         ASSERT_EQ(rings.size(), 1u);
         EXPECT_GT(rings[0].size(), 20u);
         EXPECT_LT(rings[0].size(), 80u);
         double area = 0;
         for (std::size_t i = 0; i < rings[0].size(); ++i)
             area += 0.5 * jet::cross(rings[0][i], rings[0][(i + 1) % rings[0].size()]);
-        EXPECT_NEAR(area, std::numbers::pi * radius * radius, 0.02 * area) << radius;
+        EXPECT_NEAR(area, 2 * std::numbers::pi * radius * radius, 0.02 * area) << radius;
+    }
+}
+
+TEST_F(InPathRigidBodyTest, ACircleIsACircleHoweverItIsTurnedAndScaled)
+{
+    for (const double radius : {0.01, 50.0, 1e5}) {
+        for (const double angle : {0.0, 0.3, 2.0}) {
+            jet::Path path = jet::Path::ellipse({{-radius, -radius}, {radius, radius}});
+            path.transform(jet::Affine::translation({7 * radius, 0}) * jet::Affine::rotation(angle));
+            const auto def = built(body(path, {{"mass", 3.0}}));
+            ASSERT_EQ(def.shapes.size(), 1u);
+            EXPECT_TRUE(def.borders.empty());
+            EXPECT_EQ(def.mass, 3);
+            EXPECT_EQ(def.shapes[0].kind, jet::ShapeDef::Kind::Circle);
+            EXPECT_NEAR(def.shapes[0].radius, radius, 1e-9 * radius);
+            EXPECT_NEAR((def.shapes[0].points.at(0) - jet::Vec2(7 * radius, 0)).norm(), 0, 1e-9 * radius);
+        }
+    }
+}
+
+TEST_F(InPathRigidBodyTest, WhatIsNoCircleStaysAPolygon)
+{
+    const jet::Path round = jet::Path::ellipse({{-50, -50}, {50, 50}});
+    jet::Path dented = round, inTheMiddle = round, hole = round;
+    dented.segment(1).point += jet::Vec2(0, 0.1);
+    inTheMiddle.setIntermediate(3);
+    hole.contours().push_back(jet::Path::ellipse({{-20, -20}, {20, 20}}).contours().front());
+    std::vector<jet::Vec2> corners;
+    for (int i = 0; i < 200; ++i)
+        corners.push_back(50 * jet::Vec2(std::cos(i * 0.01 * std::numbers::pi), std::sin(i * 0.01 * std::numbers::pi)));
+    for (const jet::Path& path : {jet::Path::ellipse({{-50, -50.1}, {50, 50.1}}), dented, inTheMiddle, hole,
+                                  jet::Path::polygon(corners), jet::Path::rectangle({{-50, -50}, {50, 50}})}) {
+        const auto def = built(body(path));
+        EXPECT_TRUE(def.shapes.empty());
+        EXPECT_FALSE(def.borders.empty());
     }
 }
 

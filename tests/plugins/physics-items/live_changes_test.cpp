@@ -1,10 +1,5 @@
 // What is changed while a scene plays counts for the world, with either engine, and for nothing but this run.
-#include "support/test_catalog.hpp"
-
-#include <jet/simulation.hpp>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "live_scene.hpp"
 
 namespace jet::test {
 
@@ -12,76 +7,8 @@ namespace {
 
 using testing::HasSubstr;
 
-class LiveScene : public testing::Test {
+class LiveChanges : public LiveSceneOfEngine {
 protected:
-    explicit LiveScene(const char* engine = "jet-physics") : scene_("Scene", events_, catalog_)
-    {
-        options_.physics = engine;
-        hasEngine_ = options_.physics == "jet-physics";
-        if (hasEngine_) return;
-        try {
-            catalog_.load("org.jet.physics-box2d");
-            hasEngine_ = true;
-        } catch (const Failure&) {  // built without it
-        }
-    }
-    ItemId add(const char* type, Path path, const Properties& properties = {}, const char* effect = nullptr)
-    {
-        auto edit = scene_.items().begin("Add");
-        const Item& item = edit.add(type, scene_.root(), std::move(path));
-        if (effect) edit.addEffect(item, effect);
-        for (const auto& [id, value] : properties.entries()) edit.set(item, id, value);
-        edit.commit();
-        return item.id();
-    }
-    ItemId box(const Box& bounds, const Properties& properties = {})
-    {
-        return add("shape", Path::rectangle(bounds), properties, "in-path-rigid-body");
-    }
-    void setScene(const char* id, Value value)
-    {
-        auto edit = scene_.items().begin("Scene");
-        edit.setScene(id, std::move(value));
-        edit.commit();
-    }
-    static Path line(std::initializer_list<Vec2> points) { return Path::polygon(std::vector<Vec2>(points), false); }
-    Simulation& play(double seconds)
-    {
-        if (!simulation_) simulation_ = Simulation::start(scene_, options_).orThrow();
-        const double until = simulation_->time() + seconds;
-        while (simulation_->time() < until - 1e-9) simulation_->step();
-        return *simulation_;
-    }
-    void set(ItemId item, const char* property, Value value) { simulation_->setItemProperty(item, property, value); }
-    std::string refusal(ItemId item, const char* property, Value value)
-    {
-        try {
-            set(item, property, std::move(value));
-        } catch (const Failure& failure) {
-            return failure.error().message;
-        }
-        return "accepted";
-    }
-    Vec2 velocity(ItemId item) { return simulation_->world().bodies().velocity[simulation_->bodyOf(item)]; }
-    double omega(ItemId item) { return simulation_->world().bodies().omega[simulation_->bodyOf(item)]; }
-    Vec2 place(ItemId item) { return simulation_->world().bodies().position[simulation_->bodyOf(item)]; }
-
-    TestCatalog catalog_{"org.jet.physics", "org.jet.items.physics", "org.jet.effect.in-path-rigid-body",
-                         "org.jet.effect.in-path-body", "org.jet.script-duktape"};
-    EventsCenter events_;
-    Scene scene_;
-    SimulationOptions options_;
-    std::unique_ptr<Simulation> simulation_;
-    bool hasEngine_ = false;
-};
-
-class LiveChanges : public LiveScene, public testing::WithParamInterface<const char*> {
-protected:
-    LiveChanges() : LiveScene(GetParam()) {}
-    void SetUp() override
-    {
-        if (!hasEngine_) GTEST_SKIP() << "built without Box2D";
-    }
     /// A disc about the origin that a motor of the background turns.
     ItemId motor(double speed)
     {
@@ -236,6 +163,31 @@ TEST_P(LiveChanges, TheNextRunIsThatOfTheScene)
         simulation_.reset();
         EXPECT_EQ(play(1).hash(), asDrawn);
     }
+}
+
+TEST_P(LiveChanges, AForceIsThatOfTheMomentAndAScriptSetsIt)
+{
+    setScene("gravity", Vec2(0, 0));
+    const ItemId pushed = box({{-20, -20}, {20, 20}});
+    const ItemId force = add("force", line({{-5, 0}, {5, 0}}), {{"value", Vec2(60, 0)}});
+    name(force, "Push");
+    script(R"(
+        var item = ItemUtils.getItemByName('Push', ItemUtils.getTopGroup(script)), push = item.force;
+        JetSystem.addEventListener('onStep', function (e) {
+            if (e.step === 60) push.setValue(-120, 0);
+            if (e.step === 90) push.value = new Vec2d(0, 60);
+            if (e.step === 150) print(push.value, item.get('value'), push.getValue().x, push.item === item, script.force);
+            if (e.step === 150) push.setValue({ x: 0, y: 0 });
+            if (e.step === 150) try { push.setValue(NaN, 0); } catch (problem) { print(problem instanceof TypeError); }
+        });
+    )");
+    play(1);
+    EXPECT_NEAR(velocity(pushed).x(), 60, 1);
+    play(0.5);
+    EXPECT_NEAR(velocity(pushed).x(), 0, 2);
+    play(2);
+    EXPECT_NEAR(velocity(pushed).y(), 60, 1) << "for a second, then nothing";
+    EXPECT_THAT(printed(), testing::ElementsAre("(0, 60) (0, 60) 0 true null", "true"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, LiveChanges, testing::Values("jet-physics", "physics-box2d"));

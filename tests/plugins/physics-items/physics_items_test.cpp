@@ -1,4 +1,4 @@
-// Joints and force fields as items: what they lie over is what they hold or push, at play.
+// Joints, forces and force fields as items: what they lie over is what they hold or push, at play.
 #include "support/recording_painter.hpp"
 #include "support/test_catalog.hpp"
 
@@ -34,6 +34,12 @@ protected:
         for (const auto& [id, value] : properties.entries()) edit.set(item, id, value);
         edit.commit();
         return item.id();
+    }
+    void noGravity()
+    {
+        auto edit = scene_.items().begin("No gravity");
+        edit.setScene("gravity", Vec2(0, 0));
+        edit.commit();
     }
     static Path line(std::initializer_list<Vec2> points) { return Path::polygon(std::vector<Vec2>(points), false); }
     /// With Box2D where joints are tried: it holds bodies of any outline.
@@ -101,6 +107,42 @@ TEST_F(PhysicsItemsTest, AJointThatCannotBeMadeSaysWhyAndTheGamePlays)
     EXPECT_THAT(simulation->output()[1].text, HasSubstr("no body lies under either end"));
     EXPECT_THAT(simulation->output()[2].text, HasSubstr("four points"));
     EXPECT_EQ(simulation->world().jointCount(), 0u);
+}
+
+TEST_F(PhysicsItemsTest, AForcePushesTheBodyUnderItsCentreAlwaysTheSameWay)
+{
+    noGravity();
+    for (const char* engine : {"jet-physics", "physics-box2d"}) {
+        if (std::string_view(engine) == "physics-box2d" && !hasBox2d()) continue;
+        const ItemId pushed = body({{-20, -20}, {20, 20}}, {{"omega", 2.0}}), other = body({{100, -20}, {140, 20}});
+        add("force", line({{-5, 0}, {5, 0}}), {{"value", Vec2(30, -40)}});
+        const auto simulation = play(1, engine);
+        EXPECT_TRUE(simulation->output().empty());
+        EXPECT_NEAR((simulation->world().bodies().velocity[simulation->bodyOf(pushed)] - Vec2(30, -40)).norm(), 0, 1);
+        EXPECT_NEAR((at(*simulation, other) - Vec2(120, 0)).norm(), 0, 1e-9);
+        auto edit = scene_.items().begin("Clear");
+        while (!scene_.root().children().empty()) edit.remove(*scene_.root().children().back());
+        edit.commit();
+    }
+}
+
+TEST_F(PhysicsItemsTest, AForceOffTheCentreTurnsItsBody)
+{
+    noGravity();
+    const ItemId pushed = body({{-20, -20}, {20, 20}});
+    add("force", line({{10, 0}, {20, 0}}), {{"value", Vec2(0, 40)}});
+    const auto simulation = play(0.2);
+    EXPECT_GT(simulation->world().bodies().omega[simulation->bodyOf(pushed)], 0.1) << "clockwise";
+}
+
+TEST_F(PhysicsItemsTest, AForceOnNothingSaysSo)
+{
+    add("force", line({{10, 0}, {20, 0}}), {{"value", Vec2(0, 40)}});
+    add("force", Path(), {});
+    const auto simulation = play(0.1);
+    ASSERT_EQ(simulation->output().size(), 2u);
+    EXPECT_THAT(simulation->output()[0].text, HasSubstr("no body lies under the force's centre"));
+    EXPECT_THAT(simulation->output()[1].text, HasSubstr("needs a path"));
 }
 
 TEST_F(PhysicsItemsTest, AFieldPushesWhatIsWithinItsPath)

@@ -1,3 +1,4 @@
+#include "fake_physics.hpp"
 #include "script_fixture.hpp"
 
 namespace jet::test {
@@ -118,7 +119,28 @@ TEST_F(ScriptEventsTest, ConstantsNameAllEvents)
     )"),
               Lines{"ONSTEP=onStep ONPREPAINT=onPrePaint ONPOSTPAINT=onPostPaint ONKEYUP=onKeyUp ONKEYDOWN=onKeyDown "
                     "ONKEYTYPED=onKeyTyped ONBODYCOLLISION=onBodyCollision ONPOINTERDOWN=onPointerDown "
-                    "ONPOINTERUP=onPointerUp ONPOINTERMOVE=onPointerMove"});
+                    "ONPOINTERUP=onPointerUp ONPOINTERMOVE=onPointerMove "
+                    "ONCONTACTBEGIN=onContactBegin ONCONTACTEND=onContactEnd"});
+}
+
+TEST_F(ScriptEventsTest, TheEngineIsAskedForContactEventsWhileSomebodyListens)
+{
+    body("Ball", Box({0, 0}, {10, 10}));
+    script("Script", R"(
+        function listener() {}
+        JetSystem.addEventListener('onStep', function (e) {
+            if (e.step === 3) JetSystem.addEventListener('onContactEnd', listener);
+            if (e.step === 5) JetSystem.removeEventListener('onContactEnd', listener);
+        });
+    )");
+    play();
+    const auto& world = dynamic_cast<const FakeWorld&>(simulation().world());
+    step(3);
+    EXPECT_EQ(world.eventsAsked, 0);
+    step(2);
+    EXPECT_EQ(world.eventsAsked, 2);
+    step(3);
+    EXPECT_EQ(world.eventsAsked, 2);
 }
 
 TEST_F(ScriptEventsTest, AnUnknownEventIsRefusedWithTheKnownOnes)
@@ -128,7 +150,7 @@ TEST_F(ScriptEventsTest, AnUnknownEventIsRefusedWithTheKnownOnes)
     EXPECT_EQ(printed(),
               Lines{"Script:2: error: TypeError: addEventListener: no event is called \"onstep\"; there are onStep, "
                     "onPrePaint, onPostPaint, onKeyDown, onKeyUp, onKeyTyped, onBodyCollision, onPointerDown, "
-                    "onPointerUp, onPointerMove"});
+                    "onPointerUp, onPointerMove, onContactBegin, onContactEnd"});
 }
 
 TEST_F(ScriptEventsTest, AFailingListenerIsRemovedWithScriptAndLineAndTheOthersGoOn)

@@ -4,6 +4,7 @@
 
 #include <jet/effect.hpp>
 #include <jet/item.hpp>
+#include <jet/item_type.hpp>
 
 namespace jet::test {
 
@@ -54,6 +55,74 @@ public:
     void setGravity(const Vec2& value) override { gravity = value; }
     void setBody(BodyHandle, const BodyCommon&) override {}
     void setSpring(ActuatorHandle, double, double, double, double) override {}
+    /// Of the boxes; what is cast is its first point.
+    std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter& filter) const override
+    {
+        std::optional<CastHit> best;
+        for (BodyHandle body = 0; body < bounds_.size(); ++body) {
+            if (body == filter.except || (filter.mask & 1U) == 0) continue;
+            double enter = 0, leave = 1;
+            Vec2 normal(0, 0);
+            for (int axis = 0; axis < 2; ++axis) {
+                const double way = to[axis] - from[axis];
+                const double low = (bounds_[body].min[axis] - from[axis]) / way;
+                const double high = (bounds_[body].max[axis] - from[axis]) / way;
+                if (way == 0 && (from[axis] < bounds_[body].min[axis] || from[axis] > bounds_[body].max[axis]))
+                    leave = -1;
+                if (way == 0) continue;
+                if (std::min(low, high) > enter) {
+                    enter = std::min(low, high);
+                    normal = axis == 0 ? Vec2(way > 0 ? -1 : 1, 0) : Vec2(0, way > 0 ? -1 : 1);
+                }
+                leave = std::min(leave, std::max(low, high));
+            }
+            if (enter <= 0 || enter > leave || (best && best->fraction <= enter)) continue;
+            best = CastHit{body, from + enter * (to - from), normal, enter};
+        }
+        return best;
+    }
+    std::optional<CastHit> shapeCast(const ShapeDef& shape, const Vec2& way, const QueryFilter& filter) const override
+    {
+        return rayCast(shape.points.at(0), shape.points.at(0) + way, filter);
+    }
+    std::vector<BodyHandle> overlapping(const Box& box, const QueryFilter& filter) const override
+    {
+        std::vector<BodyHandle> found;
+        for (BodyHandle body = 0; body < bounds_.size(); ++body)
+            if (body != filter.except && bounds_[body].intersects(box)) found.push_back(body);
+        return found;
+    }
+    std::optional<CastHit> nearest(const Vec2& point, double reach, const QueryFilter& filter) const override
+    {
+        for (BodyHandle body = 0; body < bounds_.size(); ++body) {
+            const Vec2 at(std::clamp(point.x(), bounds_[body].min.x(), bounds_[body].max.x()),
+                          std::clamp(point.y(), bounds_[body].min.y(), bounds_[body].max.y()));
+            const double far = (at - point).norm();
+            if (body != filter.except && far > 0 && far <= reach)
+                return CastHit{body, at, (point - at) / far, far / reach};
+        }
+        return std::nullopt;
+    }
+
+    std::span<const ContactEvent> contactEvents() const override
+    {
+        return ++eventsAsked, std::span<const ContactEvent>();
+    }
+
+    JointHandle addJoint(const JointDef& def) override
+    {
+        return joints_.push_back(def), static_cast<JointHandle>(joints_.size() - 1);
+    }
+    std::size_t jointCount() const override { return joints_.size(); }
+    JointState joint(JointHandle joint) const override
+    {
+        const JointDef& def = joints_.at(joint);
+        return {{0, 0}, 0, 0, false, def.a.point, def.b.point};
+    }
+    void setJoint(JointHandle joint, const JointDef& def) override { joints_.at(joint) = def; }
+    void setJointTarget(JointHandle joint, const Vec2& target) override { joints_.at(joint).b.point = target; }
+    void removeJoint(JointHandle) override {}
+
     bool springAlive(BodyHandle, std::uint32_t) const override { return true; }
 
     // Exact: any difference in the last bit of any state changes it.
@@ -71,6 +140,7 @@ public:
     void restore(std::span<const std::byte>) override {}
 
     Vec2 gravity;
+    mutable int eventsAsked = 0;
 
 private:
     struct Actuator {
@@ -113,6 +183,7 @@ private:
     std::vector<std::uint32_t> first_{0};
     std::vector<Actuator> actuators_;
     std::vector<Contact> contacts_;
+    std::vector<JointDef> joints_;
 };
 
 class FakePhysics final : public PhysicsEngine {
@@ -120,6 +191,45 @@ public:
     std::unique_ptr<PhysicsWorld> createWorld(const WorldSettings& settings) override
     {
         return std::make_unique<FakeWorld>(settings);
+    }
+};
+
+/// A joint to the background at the end of its path.
+class FakeJoint final : public ItemType {
+public:
+    const PropertyTable& properties() const override
+    {
+        static const PropertyTable table{choice("kind", "Kind", {"revolute", "mouse"}),
+                                         flag("driven", "Motor on", false), real("motor-speed", "Motor speed", 0),
+                                         real("max-force", "Greatest force", 0),
+                                         real("max-torque", "Greatest torque", 0)};
+        return table;
+    }
+    std::string label() const override { return "Joint"; }
+    void build(const Item& item, WorldBuilder& builder) const override
+    {
+        JointDef def;
+        def.a = builder.anchor(item, item.path().segment(0).point);
+        def.b.point = item.path().segment(1).point;
+        builder.world().addJoint(def);
+    }
+};
+
+/// A force at the start of its path.
+class FakeForce final : public ItemType {
+public:
+    const PropertyTable& properties() const override
+    {
+        static const PropertyTable table{vector("value", "Force", {0, 0})};
+        return table;
+    }
+    std::string label() const override { return "Force"; }
+    void build(const Item& item, WorldBuilder& builder) const override
+    {
+        ForceActuatorDef def;
+        def.at = builder.anchor(item, item.path().segment(0).point);
+        def.force = item.properties().get("value", properties()).as<Vec2>();
+        builder.bind(item, builder.world().addForce(def));
     }
 };
 

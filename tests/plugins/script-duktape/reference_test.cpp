@@ -109,6 +109,8 @@ protected:
         body("Finish", Box({10, 10}, {40, 40}), &hero);
         torque("BallTorque", {10, 10}, &hero);
         add("spring", "Rope", Path::line({0, 0}, {10, 0}), &hero);
+        add("fake-force", "Push", Path::line({10, 10}, {20, 10}), &hero);
+        add("fake-joint", "Axle", Path::line({10, 10}, {90, 10}), &hero);
         shape("Score", &hero);
         shape("Background");
     }
@@ -132,6 +134,8 @@ TEST_F(ScriptReferenceTest, TheTypingsDeclareExactlyTheMembersThatExist)
                                                            {"Body", "ball.body"},
                                                            {"Torque", "find('BallTorque').torque"},
                                                            {"Spring", "find('Rope').spring"},
+                                                           {"Force", "find('Push').force"},
+                                                           {"Joint", "find('Axle').joint"},
                                                            {"JetSystem", "JetSystem"},
                                                            {"ItemUtils", "ItemUtils"},
                                                            {"Keyboard", "Keyboard"},
@@ -164,7 +168,7 @@ TEST_F(ScriptReferenceTest, EventsHaveTheMembersThatTheTypingsDeclare)
 {
     buildScene();
     script("Script", R"(
-        ['onStep', 'onKeyDown', 'onPointerDown', 'onBodyCollision'].forEach(function (type) {
+        ['onStep', 'onKeyDown', 'onPointerDown', 'onBodyCollision', 'onContactBegin', 'onContactEnd'].forEach(function (type) {
             JetSystem.addEventListener(type, function (e) { print(Object.keys(e).join(' ')); });
         });
     )");
@@ -172,8 +176,13 @@ TEST_F(ScriptReferenceTest, EventsHaveTheMembersThatTheTypingsDeclare)
     simulation().key({"A", "a", {}, false}, true);
     simulation().pointer(ScriptEventKind::PointerDown, {});
     step();
+    simulation().world().setPosition(0, {500, 0});
+    simulation().world().setPosition(1, {500, 500});
+    simulation().restore(simulation().save());  // the fake has no events of its own: what touches now is looked at
+    step();
     const Typings typings = readTypings();
-    const char* const types[] = {"KeyboardEvent", "PointerEvent", "StepEvent", "CollisionEvent"};
+    const char* const types[] = {"KeyboardEvent",  "PointerEvent", "StepEvent",      "ContactBeginEvent",
+                                 "CollisionEvent", "StepEvent",    "ContactEndEvent"};
     ASSERT_EQ(printed().size(), std::size(types));
     for (std::size_t i = 0; i < std::size(types); ++i) {
         Names declared = typings.members.at(types[i]);

@@ -28,6 +28,8 @@ ScriptTest::ScriptTest()
     catalog_.load("org.jet.script-duktape");
     catalog_.inCode().physicsEngine<FakePhysics>("fake");
     catalog_.inCode().effect<FakeBody>("fake-body");
+    catalog_.inCode().itemType<FakeJoint>("fake-joint");
+    catalog_.inCode().itemType<FakeForce>("fake-force");
     scene_ = std::make_unique<Scene>("Scene 0", events_, catalog_);
     auto edit = scene_->items().begin("Set up");
     edit.setScene("gravity", Vec2(0, 0));
