@@ -40,6 +40,8 @@ class Outcome:
         for key, value in values.items():
             if key in wanted and not within(value, wanted[key]):
                 return f"'{wanted['item']}': {key} is {value:.3f}, not within {wanted[key]}"
+        if "awake" in wanted and item["awake"] != wanted["awake"]:
+            return f"'{wanted['item']}' is {'awake' if item['awake'] else 'asleep'}"
         if "distance" in wanted:
             far = math.dist((x, y), wanted["distance"])
             if not within(far, wanted["from"]):

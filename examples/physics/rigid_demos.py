@@ -137,8 +137,9 @@ def sleeping():
     s.fixed("Beam", rectangle(200, 40, 160, 10), STEEL)
     s.rigid("Pendulum", circle(280, 214, 22), RED, 40, gravity_scale=0.07)
     s.joint("Pin", line((200, 40), (200, 40), (280, 214)), "revolute")
-    write("sleeping", "Sleeping", s, 1000, [{"item": "Pendulum", "x": [116, 128]}, {"count": "Box *", "inside": [464, 130, 496, 322], "is": 6}],
-          picture=500)
+    write("sleeping", "Sleeping", s, 1000, [
+        {"item": "Pendulum", "x": [116, 128], "awake": True}, {"item": "Box 1", "awake": False},
+        {"item": "Box 6", "awake": False}, {"count": "Box *", "inside": [464, 130, 496, 322], "is": 6}], picture=500)
 
 
 def distance():

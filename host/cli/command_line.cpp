@@ -106,7 +106,9 @@ void addPlay(CLI::App& app, Parsed& parsed)
     play->add_option("--threads", o.threads, "Threads the physics engine may use")
         ->type_name("N")
         ->check(CLI::Range(1, 64));
-    play->add_option("--physics", o.physics, "Physics engine instead of the scene's")->type_name("ID");
+    play->add_option("--physics", o.physics,
+                     "Physics engine instead of the scene's, or its plugin; 'jet plugins list' has them")
+        ->type_name("ID");
     play->add_option("--width", o.width, "Width of the view in pixels")->check(CLI::Range(1, 16384));
     play->add_option("--height", o.height, "Height of the view in pixels")->check(CLI::Range(1, 16384));
     play->callback([&parsed] { parsed.run = [&](Session& s) { return host::play(s, parsed.play); }; });

@@ -78,7 +78,7 @@ private:
     {
         SimulationOptions options;
         options.timeStep = options_.timeStep;
-        options.physics = options_.physics;
+        options.physics = engineId(options_.physics);
         options.seed = options_.seed;
         options.threads = options_.threads;
         options.viewSize = Vec2(options_.width, options_.height);
@@ -90,6 +90,17 @@ private:
         for (const OutputLine& line : simulation_->output()) print(line);
         simulation_->setOutputHandler([this](const OutputLine& line) { print(line); });
         return {};
+    }
+
+    /// What `jet plugins list` shows are ids of plugins: one stands for the engine the plugin has.
+    std::string engineId(const std::string& given)
+    {
+        std::string id = given;
+        for (const Contribution& one : session_.plugins().contributions(ContributionKind::PhysicsEngine)) {
+            if (one.id == given) return given;
+            if (one.plugin == given) id = one.id;
+        }
+        return id;
     }
 
     /// An engine that the scene names and nobody has is told with the line that names it.

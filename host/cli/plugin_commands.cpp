@@ -71,13 +71,26 @@ int listPlugins(Session& session)
     return kOk;
 }
 
+namespace {
+
+/// What somebody may have meant who gives the id of what a plugin contributes.
+std::string hint(const PluginManager& plugins, const std::string& id)
+{
+    for (const Plugin* plugin : plugins.plugins())
+        for (const Contribution& one : plugin->manifest.contributions)
+            if (one.id == id) return "'" + id + "' is one of the things that '" + plugin->manifest.id + "' provides";
+    return "'jet plugins list' shows all";
+}
+
+}  // namespace
+
 int pluginInfo(Session& session, const std::string& id)
 {
     session.compareWithSet();
     PluginManager& plugins = session.plugins();
     const Plugin* plugin = plugins.plugin(id);
     if (!plugin) {
-        session.error(Error("there is no plugin '" + id + "'; 'jet plugins list' shows all"));
+        session.error(Error("there is no plugin '" + id + "'; " + hint(plugins, id)));
         return kFailed;
     }
     // Whether it really runs is part of what one wants to know: load it.

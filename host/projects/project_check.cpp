@@ -2,7 +2,9 @@
 
 #include "project_mender.hpp"
 #include "schema.hpp"
+#include "setting_place.hpp"
 
+#include <jet/catalog.hpp>
 #include <jet/format.hpp>
 
 #include <algorithm>
@@ -81,6 +83,24 @@ Result<void> writeRepair(CheckReport& report, const ProjectMender& mender)
 
 }  // namespace
 
+namespace {
+
+/// A scene that names an engine nobody has does not play.
+void addEngineFindings(CheckReport& report, const Catalog& catalog)
+{
+    const auto engines = catalog.contributions(ContributionKind::PhysicsEngine);
+    for (const Scene* scene : report.project->scenes()) {
+        const auto wanted = scene->setting("physics").as<std::string>();
+        if (wanted.empty() || std::ranges::any_of(engines, [&](const Contribution& one) { return one.id == wanted; }))
+            continue;
+        report.findings.push_back(
+            {Finding::Weight::Error, placeOfSetting(report.file, scene->name(), "physics"),
+             "the scene cannot be played: " + catalog.explain(ContributionKind::PhysicsEngine, wanted), "", false});
+    }
+}
+
+}  // namespace
+
 Result<CheckReport> checkProjectFiles(const fs::path& path, EventsCenter& events, Catalog& catalog,
                                       const CheckOptions& options)
 {
@@ -103,6 +123,7 @@ Result<CheckReport> checkProjectFiles(const fs::path& path, EventsCenter& events
     auto opened = Project::load(*file, events, catalog);
     if (opened) {
         report.project = std::move(*opened);
+        addEngineFindings(report, catalog);
         return report;
     }
     report.problem = opened.error();

@@ -279,6 +279,7 @@ std::string Simulation::stateJson() const
                                       {"velocity", pair(moves ? bodies.velocity[body] : Vec2(0, 0))},
                                       {"omega", moves ? bodies.omega[body] : 0.0},
                                       {"bounds", Json::array({box.min.x(), box.min.y(), box.max.x(), box.max.y()})}});
+        if (moves) state["items"].back()["awake"] = d_->world->awake(body);
     });
     state["view"] =
         Json{{"anchor", pair(d_->view.view.anchor)}, {"scale", d_->view.view.scale}, {"size", pair(d_->view.size)}};

@@ -77,6 +77,23 @@ BodyCommon commonOf(const Scene& scene, const Item& item, std::string& problem)
     return common;
 }
 
+namespace {
+
+/// Without the engine's number of the body, where the item is named, and as a part of a sentence.
+std::string reasonOf(const Failure& failure)
+{
+    std::string reason = failure.error().message;
+    if (reason.starts_with("Physics: ")) reason.erase(0, 9);
+    if (reason.starts_with("body ")) {
+        const std::size_t end = reason.find_first_not_of("0123456789", 5);
+        if (end != std::string::npos && reason.compare(end, 2, ": ") == 0) reason.erase(0, end + 2);
+    }
+    if (reason.ends_with('.')) reason.pop_back();
+    return reason;
+}
+
+}  // namespace
+
 void SceneWorldBuilder::addBody(const Item& item)
 {
     std::optional<BodyDef> def;
@@ -100,7 +117,7 @@ void SceneWorldBuilder::addBody(const Item& item)
         try {
             built = effect->buildBody(input, own);
         } catch (const Failure& failure) {
-            return warn(item, std::string("its body cannot be built: ") + failure.what() + "; it stays as drawn");
+            return warn(item, "its body cannot be built: " + reasonOf(failure) + "; it stays as drawn");
         }
         if (!built) continue;
         if (def) {
@@ -126,7 +143,7 @@ void SceneWorldBuilder::addBody(const Item& item)
             binding.body = world_.addRigidBody(std::get<RigidBodyDef>(*def));
         }
     } catch (const Failure& failure) {
-        return warn(item, std::string("its body cannot be built: ") + failure.what() + "; it stays as drawn");
+        return warn(item, "its body cannot be built: " + reasonOf(failure) + "; it stays as drawn");
     }
     bodies.push_back(std::move(binding));
 }

@@ -121,6 +121,7 @@ namespace {
 constexpr double kUnlimited = 1e30;
 constexpr double kTurn = 0.5;       // radians that a push turns a body by at most
 constexpr double kStrained = 0.04;  // of that
+constexpr double kNearing = 0.2;    // share of the way to its limit that a motor drives at most in a substep
 
 /// Builds rows of one joint; each has a slot in which its impulse is kept from step to step.
 template <class Real>
@@ -173,6 +174,17 @@ public:
         row.speed = static_cast<Real>(speed);
         row.most = static_cast<Real>(most * h_), row.least = -row.most;
     }
+    /// The motor's speed, less where its limit is near, and back from beyond it. Pressed against each other both would
+    /// grow to all that the motor has, and a soft limit gives way to so much; the motor holds as well so.
+    double speedWithin(double value) const
+    {
+        const JointDef& def = joint_.def;
+        if (!def.limited) return def.motorSpeed;
+        const bool up = def.motorSpeed > 0;
+        const double room = up ? def.upper - value : value - def.lower;
+        const double speed = std::min(std::abs(def.motorSpeed), kNearing * room / h_);
+        return up ? speed : -speed;
+    }
     /// `value` may not go below `lower` or above `upper`; two rows of the same direction.
     template <class Make>
     void limits(double value, Make&& make, int slot)
@@ -209,7 +221,7 @@ void addSlider(const Joint& joint, const JointFrame& f, RowMaker<Real>& make)
     const double travel = apart.dot(axis);
     if (def.kind == JointDef::Kind::Prismatic) {
         make.turning(1).error = static_cast<Real>(f.angle);
-        if (def.driven) make.makeMotor(make.along(axis, 2, true), def.motorSpeed, def.maxForce);
+        if (def.driven) make.makeMotor(make.along(axis, 2, true), make.speedWithin(travel), def.maxForce);
     } else {
         if (def.hertz > 0) {
             JointRow<Real>& spring = make.along(axis, 1, true);
@@ -263,7 +275,7 @@ void addRows(const Joint& joint, Index index, const JointFrame& f, const BodySta
     const Vec2 apart = f.pointB - f.pointA;
     switch (def.kind) {
     case JointDef::Kind::Revolute:
-        if (def.driven) make.makeMotor(make.turning(2), def.motorSpeed, def.maxTorque);
+        if (def.driven) make.makeMotor(make.turning(2), make.speedWithin(f.angle), def.maxTorque);
         if (def.limited)
             make.limits(
                 f.angle, [&](int slot) -> JointRow<Real>& { return make.turning(slot); }, 3);

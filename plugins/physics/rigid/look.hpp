@@ -11,7 +11,17 @@ namespace jet::physics {
 inline constexpr float kSpeculative = 6;  // slops: nearer than this a pair gets points even without closing speed;
                                           // quiet bodies may come two of them nearer before the pair is looked at again
 inline constexpr float kReuseMove = 1.0F, kReuseTurn = 0.01F;  // slops, radians: points are kept
+inline constexpr float kSameWay = 0.95F;                       // cosine between normals of what may be one point
 inline constexpr float kFast = 0.5F;  // lengths a step: faster pairs are foreseen by their time of impact
+
+/// A point that lies alone on a side, as an apex does, may be clipped at either end of the side from one step to the
+/// next, and is the same nevertheless.
+inline bool samePoint(const RigidContact& c, const Manifold& m)
+{
+    if (c.count != 1 || m.count != 1 || dot(c.normal, m.normal) <= kSameWay) return false;
+    const std::uint16_t before = c.ids[0], now = m.points[0].id;
+    return before >> 8 == now >> 8 || (before & 0xff) == (now & 0xff);
+}
 
 struct LookInput {
     RigidContact* contacts = nullptr;

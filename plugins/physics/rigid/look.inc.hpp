@@ -383,6 +383,11 @@ JET_INLINE void finish(Pairs& p, const Found& f, const Bits& renewed, const Bits
         carried[k] = choose(second, impulses[1], where(first, impulses[0]));
         slid[k] = choose(second, tangents[1], where(first, tangents[0]));
     }
+    // samePoint()
+    const Bits ofA = (oldIds[0] & 0xff00) == (f.points[0].id & 0xff00);
+    const Bits ofB = (oldIds[0] & 0xff) == (f.points[0].id & 0xff);
+    const Bits lone = (p.count == 1) & (f.count == 1) & (ofA | ofB) & (dot(normal, f.normal) > all(kSameWay));
+    carried[0] = choose(lone, impulses[0], carried[0]), slid[0] = choose(lone, tangents[0], slid[0]);
     Bits ids[2];
     for (int k = 0; k < 2; ++k) {
         const Vectors at = p.move + turned(p.turn, onB[k]) - onA[k];

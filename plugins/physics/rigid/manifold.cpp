@@ -62,18 +62,6 @@ int farthestSide(const A& a, const B& b, float& separation)
     return best;
 }
 
-template <class B>
-int mostOpposed(const B& b, Vec2f normal)
-{
-    int best = 0;
-    float least = dot(b.normals[0], normal);
-    for (int i = 1; i < b.count; ++i) {
-        const float along = dot(b.normals[i], normal);
-        if (along < least) least = along, best = i;
-    }
-    return best;
-}
-
 ManifoldPoint pointOf(Vec2f onA, Vec2f onB, const Relative& at, float separation, int featureA, int featureB)
 {
     ManifoldPoint p;

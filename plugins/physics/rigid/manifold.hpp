@@ -44,6 +44,19 @@ struct Nearest {
 
 Nearest nearestOfSegments(Vec2f p1, Vec2f q1, Vec2f p2, Vec2f q2);
 
+/// The side (of a Part, or of one Placed) that faces a direction: the incident side, if that is the reference's normal.
+template <class B>
+int mostOpposed(const B& b, Vec2f normal)
+{
+    int best = 0;
+    float least = dot(b.normals[0], normal);
+    for (int i = 1; i < b.count; ++i) {
+        const float along = dot(b.normals[i], normal);
+        if (along < least) least = along, best = i;
+    }
+    return best;
+}
+
 ManifoldPoint pointOf(Vec2f onA, Vec2f onB, const Relative& at, float separation, int featureA, int featureB);
 
 /// One point between two corners (or centres) that lie apart.

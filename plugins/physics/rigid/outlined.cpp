@@ -82,18 +82,6 @@ bool plausible(const Axes& axes, float length)
     return -axes.best <= kDeepSlops * kSlop * length || -axes.best <= -kDeepest * axes.other;
 }
 
-template <class B>
-int facing(const B& b, Vec2f normal)
-{
-    int best = 0;
-    float least = dot(b.normals[0], normal);
-    for (int i = 1; i < b.count; ++i) {
-        const float along = dot(b.normals[i], normal);
-        if (along < least) least = along, best = i;
-    }
-    return best;
-}
-
 Manifold sides(const Part& a, const PartOutline* outlineA, const Part& partB, const PartOutline* outlineB,
                const Relative& at, float reach)
 {
@@ -105,8 +93,8 @@ Manifold sides(const Part& a, const PartOutline* outlineA, const Part& partB, co
     lookAt(b, partB, outlineB, a, a, outlineA, same, reach, true, axes);
     const float length = std::min(a.length, partB.length);
     if (axes.apart || !plausible(axes, length)) return {};
-    const int sideA = axes.ofB ? facing(a, b.normals[axes.side]) : axes.side;
-    const int sideB = axes.ofB ? axes.side : facing(b, a.normals[axes.side]);
+    const int sideA = axes.ofB ? mostOpposed(a, b.normals[axes.side]) : axes.side;
+    const int sideB = axes.ofB ? axes.side : mostOpposed(b, a.normals[axes.side]);
     const int nextA = (sideA + 1) % a.count, nextB = (sideB + 1) % b.count;
     const Vec2f a1 = a.corners[sideA], a2 = a.corners[nextA], b1 = b.corners[sideB], b2 = b.corners[nextB];
     if (axes.best > 1e-4F * length) {

@@ -219,6 +219,7 @@ bool Collider::reuse(RigidContact& c, const Relative& at, float reach) const
 void Collider::renew(RigidContact& c, const Manifold& m, const Relative& at, float reach) const
 {
     const int count = c.count;
+    const bool same = samePoint(c, m);
     const std::uint16_t ids[2] = {c.ids[0], c.ids[1]};
     const float impulses[2] = {c.impulse[0], c.impulse[1]};
     const float tangents[2] = {c.tangentImpulse[0], c.tangentImpulse[1]};
@@ -232,7 +233,7 @@ void Collider::renew(RigidContact& c, const Manifold& m, const Relative& at, flo
         c.onA[i] = p.onA, c.onB[i] = p.onB, c.ids[i] = p.id, c.separation[i] = p.separation;
         c.impulse[i] = c.tangentImpulse[i] = 0;
         for (int k = 0; k < std::min(count, 2); ++k)
-            if (ids[k] == p.id) c.impulse[i] = impulses[k], c.tangentImpulse[i] = tangents[k];
+            if (ids[k] == p.id || same) c.impulse[i] = impulses[k], c.tangentImpulse[i] = tangents[k];
     }
 }
 

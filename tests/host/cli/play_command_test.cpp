@@ -74,6 +74,15 @@ TEST_F(PlayCommandTest, AScriptErrorNamesScriptAndLineAndTheGameGoesOn)
     EXPECT_EQ(run.err, "Script:2: error: x is not defined\n");
 }
 
+TEST_F(PlayCommandTest, APluginStandsForItsEngine)
+{
+    writeGame();
+    const Outcome run = jet("play game --physics org.jet.test.good --steps 3");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(json(jet("--json play game --physics org.jet.test.good --steps 3").out),
+              json(jet("--json play game --physics falling --steps 3").out));
+}
+
 TEST_F(PlayCommandTest, WithoutPhysicsItSaysWhatIsMissing)
 {
     writeGame();

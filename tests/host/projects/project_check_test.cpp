@@ -271,6 +271,17 @@ TEST_F(ProjectCheckTest, MaterialsAndGravityNoEngineComputesWithAreTold)
     EXPECT_THAT(texts(found), ElementsAre(HasSubstr("the property 'gravity' is '0 1e40'")));
 }
 
+TEST_F(ProjectCheckTest, AnEngineThatNobodyHasIsAnErrorWithItsPlace)
+{
+    writeGame("<settings>\n<property id=\"physics\">quantum</property></settings>");
+    const CheckReport found = check();
+    EXPECT_FALSE(found.isFine());
+    ASSERT_THAT(texts(found), SizeIs(1));
+    EXPECT_THAT(texts(found)[0], HasSubstr("One.scene:"));
+    EXPECT_THAT(texts(found)[0], HasSubstr("the scene cannot be played: "));
+    EXPECT_THAT(texts(found)[0], HasSubstr("quantum"));
+}
+
 TEST_F(ProjectCheckTest, WhenAFileCannotBeWrittenTheOthersArePutBack)
 {
     write("game/project.jet", "<jet-project version=\"1\" name=\"G\"><filter name=\"F\"><scene name=\"A\" "

@@ -145,6 +145,40 @@ TEST_F(PhysicsItemsTest, AForceOnNothingSaysSo)
     EXPECT_THAT(simulation->output()[1].text, HasSubstr("needs a path"));
 }
 
+TEST_F(PhysicsItemsTest, AMotorWithoutForceSaysThatItDoesNothing)
+{
+    body(Box({0, 0}, {10, 10}));
+    const Path path = line({{-20, 5}, {5, 5}});
+    const auto saying = [&](Properties properties) {
+        const ItemId joint = add("joint", path, std::move(properties));
+        const auto simulation = play(0);
+        std::string text;
+        for (const OutputLine& each : simulation->output()) text += each.text;
+        auto edit = scene_.items().begin("Remove");
+        edit.remove(*scene_.items().find(joint));
+        edit.commit();
+        return text;
+    };
+    EXPECT_THAT(saying({{"kind", "revolute"}, {"driven", true}, {"motor-speed", 1.0}}), HasSubstr("max-torque is 0"));
+    EXPECT_THAT(saying({{"kind", "wheel"}, {"driven", true}}), HasSubstr("max-torque is 0"));
+    EXPECT_THAT(saying({{"kind", "prismatic"}, {"driven", true}}), HasSubstr("max-force is 0"));
+    EXPECT_THAT(saying({{"kind", "mouse"}}), HasSubstr("max-force is 0"));
+    EXPECT_THAT(saying({{"kind", "motor"}}), HasSubstr("max-force and max-torque are 0"));
+    EXPECT_EQ(saying({{"kind", "revolute"}, {"driven", true}, {"max-torque", 1.0}}), "");
+    EXPECT_EQ(saying({{"kind", "motor"}, {"max-torque", 1.0}}), "");
+    EXPECT_EQ(saying({{"kind", "prismatic"}}), "");
+}
+
+TEST_F(PhysicsItemsTest, ABodyThatIsRefusedIsCalledByItsNameAlone)
+{
+    body(Box({0, 0}, {10, 10}), {{"velocity", Vec2(1e300, 0)}});
+    const auto simulation = play(0);
+    ASSERT_EQ(simulation->output().size(), 1U);
+    const std::string text = simulation->output()[0].text;
+    EXPECT_THAT(text, HasSubstr("its body cannot be built: initial velocity's x"));
+    EXPECT_THAT(text, testing::Not(HasSubstr(".;")));
+}
+
 TEST_F(PhysicsItemsTest, AFieldPushesWhatIsWithinItsPath)
 {
     const Properties floating{{"gravity-scale", 0.0}};

@@ -65,6 +65,7 @@ bool reuses(const RigidContact& c, const Relative& at, float reach)
 void renew(RigidContact& c, const Manifold& m, const Relative& at, float reach)
 {
     const RigidContact old = c;
+    const bool same = samePoint(c, m);
     c.at = at, c.reach = reach, c.foreseen = false, c.normal = m.normal;
     c.count = static_cast<std::uint8_t>(m.count);
     if (m.count == 0) c.separation[0] = m.gap;
@@ -73,7 +74,7 @@ void renew(RigidContact& c, const Manifold& m, const Relative& at, float reach)
         c.onA[i] = p.onA, c.onB[i] = p.onB, c.ids[i] = p.id, c.separation[i] = p.separation;
         c.impulse[i] = c.tangentImpulse[i] = 0;
         for (int k = 0; k < old.count; ++k)
-            if (old.ids[k] == p.id) c.impulse[i] = old.impulse[k], c.tangentImpulse[i] = old.tangentImpulse[k];
+            if (old.ids[k] == p.id || same) c.impulse[i] = old.impulse[k], c.tangentImpulse[i] = old.tangentImpulse[k];
     }
 }
 
