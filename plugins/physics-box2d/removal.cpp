@@ -9,10 +9,7 @@
 
 namespace jet::box2d {
 
-BodyHandle Stage::nextBody() const
-{
-    return free_.empty() ? static_cast<BodyHandle>(bodies_.size()) : *free_.begin();
-}
+BodyHandle Stage::nextBody() const { return free_.empty() ? static_cast<BodyHandle>(bodies_.size()) : *free_.begin(); }
 
 void Stage::createPlaceholder(BodyHandle handle, const b2Vec2& at)
 {

@@ -220,7 +220,8 @@ void Actuators::addSpringForces(State& state)
         jacobian.addForce(state, -spring.ks * (length - spring.restLength) - spring.kd * jacobian.rate(state));
     }
     for (AngularSpring& spring : angularSprings_) {
-        if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) continue;
+        if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b))
+            continue;
         AnchorJacobian jacobian;
         if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) continue;
         spring.angle += wrapped(angleNow(state, spring.a, spring.centre, spring.b) - spring.angle);

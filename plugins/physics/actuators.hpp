@@ -75,7 +75,9 @@ public:
         for (const Spring& spring : springs_)
             if (spring.alive != 0) visit(spring.a.body, spring.b.body, energy(state, spring, h));
         for (const AngularSpring& spring : angularSprings_)
-            if (!spring.removed) visit(spring.a.body != kNone ? spring.a.body : spring.centre.body, spring.b.body, energy(state, spring, h));
+            if (!spring.removed)
+                visit(spring.a.body != kNone ? spring.a.body : spring.centre.body, spring.b.body,
+                      energy(state, spring, h));
     }
 
     void addTo(StiffnessBounds&, const State&) const;

@@ -18,7 +18,7 @@ namespace jet::physics {
 struct Build {
     bool rigid = false, single = false, simple = false;  // as of BodyRecord
     Index nodes = 0, points = 0, walls = 0;
-    Index parts = 0;                   // rigid and simple
+    Index parts = 0;                        // rigid and simple
     Index springs = 0, angularSprings = 0;  // soft
 
     auto operator<=>(const Build&) const = default;

@@ -115,8 +115,8 @@ private:
         double restAngle = 0, ks = 0, kd = 0;
         double angle = 0;           // unwrapped: continues through ±pi
         double restCompliance = 0;  // sum of |grad angle|² / m at rest
-        double stiffness = 0;   // ks after softening
-        double damping = 0;     // kd and what softening adds
+        double stiffness = 0;       // ks after softening
+        double damping = 0;         // kd and what softening adds
     };
     struct Corner;
     struct Kind {
@@ -195,7 +195,7 @@ private:
     std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;
     Index turning_ = 0;  // of them, those of bodies there are
-    double crush_ = 0;  // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
+    double crush_ = 0;   // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
     // Scratch of the body or batch at work; that of preparing is given back.
     std::vector<Vec2> drift_;  // [bodies] units / s, of the substep
     std::vector<Room> rooms_;  // the first serves what is not divided

@@ -180,8 +180,8 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     return finishBody(handle, def.common);
 }
 
-/// Puts the node of the newest body at the centre of mass and makes the points local to it. Borders without area count as equal masses at
-/// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
+/// Puts the node of the newest body at the centre of mass and makes the points local to it. Borders without area count
+/// as equal masses at their points, so that a degenerate drawing still has a finite centre and moment of inertia.
 BodyHandle World::setRigidMass(const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines,
                                const Drawing& drawing)
 {

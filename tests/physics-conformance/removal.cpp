@@ -80,12 +80,16 @@ Outcome whatHoldsIt(const Lab& lab)
         return holds(false, "what held it is still there");
     if (!out.hasActuator(ActuatorKind::Force, force)) return holds(false, "what held another is gone");
     const std::vector<std::function<void()>> acts{[&] { out.removeBody(body); },
-                                                  [&] { world->setVelocity(body, {1, 0}); },
+                                                  [&] {
+                                                      world->setVelocity(body, {1, 0});
+                                                  },
                                                   [&] { world->setMass(body, 2); },
                                                   [&] { world->joint(link); },
                                                   [&] { world->setSpring(spring, 1, 1, 1, 0); },
                                                   [&] { world->setTorque(torque, 1); },
-                                                  [&] { world->addForce({on(body, {0, 0}), {1, 0}}); }};
+                                                  [&] {
+                                                      world->addForce({on(body, {0, 0}), {1, 0}});
+                                                  }};
     for (const auto& act : acts)
         if (!isRefused(act)) return holds(false, "a call with a removed handle is taken");
     const double before = velocity(*world, other).x();

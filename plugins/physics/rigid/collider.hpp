@@ -277,8 +277,8 @@ private:
     std::vector<Part> parts_;
     Weld weld_;
     std::vector<Index> replaced_;  // parts that the sweep knows as they were
-    bool rearranged_ = true;  // has something that stands come, gone or been moved?
-    bool welded_ = false;     // are the outlines those of where bodies stand?
+    bool rearranged_ = true;       // has something that stands come, gone or been moved?
+    bool welded_ = false;          // are the outlines those of where bodies stand?
     std::vector<Pose> poses_;
     std::vector<Fitting> fitted_;
     // Of the step, in the arena; all but the first until endLooks().

@@ -251,7 +251,7 @@ private:
     bool drowsy_ = false;         // has one fallen asleep after the last step?
     bool woke_ = false;           // has a body woken since contacts were last looked at?
     Index movers_ = 0;
-    std::size_t removed_ = 0;  // bodies
+    std::size_t removed_ = 0;       // bodies
     std::vector<Index> kinematic_;  // bodies
 };
 

@@ -54,8 +54,8 @@ class JET_API LiveAngularSprings {
 public:
     virtual ~LiveAngularSprings();
 
-    /// restAngle: radians, from a to b about the centre; the spring goes there the short way. None: as it is. ks: torque
-    /// / rad, kd: torque / (rad/s), both 0 to 1e30. What it holds wakes when something changes.
+    /// restAngle: radians, from a to b about the centre; the spring goes there the short way. None: as it is. ks:
+    /// torque / rad, kd: torque / (rad/s), both 0 to 1e30. What it holds wakes when something changes.
     virtual void setAngularSpring(ActuatorHandle angularSpring, std::optional<double> restAngle, double ks,
                                   double kd) = 0;
 };

@@ -171,12 +171,22 @@ TEST(Removal, WhatIsRemovedIsNamedInTheRefusalOfEveryCallAndTheWorldIsAsItWas)
         const Anchor anchor = on(body, {0, -30}), free = background({0, -60});
         const std::vector<std::function<void()>> acts{
             [&] { out.removeBody(body); },
-            [&] { world->contains(body, {0, 0}); },
-            [&] { world->applyForce(body, {1, 0}); },
-            [&] { world->applyImpulse(body, {1, 0}); },
-            [&] { world->setVelocity(body, {1, 0}); },
+            [&] {
+                world->contains(body, {0, 0});
+            },
+            [&] {
+                world->applyForce(body, {1, 0});
+            },
+            [&] {
+                world->applyImpulse(body, {1, 0});
+            },
+            [&] {
+                world->setVelocity(body, {1, 0});
+            },
             [&] { world->setOmega(body, 1); },
-            [&] { world->setPosition(body, {1, 0}); },
+            [&] {
+                world->setPosition(body, {1, 0});
+            },
             [&] { world->setBody(body, {}); },
             [&] { world->setMass(body, 2); },
             [&] { world->setEnabled(body, true); },
@@ -190,10 +200,18 @@ TEST(Removal, WhatIsRemovedIsNamedInTheRefusalOfEveryCallAndTheWorldIsAsItWas)
             [&] { world->awake(body); },
             [&] { world->wake(body); },
             [&] { world->island(body); },
-            [&] { world->addSpring({anchor, free}); },
-            [&] { world->addAngularSpring({free, anchor, free}); },
-            [&] { world->addTorque({anchor, 1}); },
-            [&] { world->addForce({anchor, {1, 0}}); },
+            [&] {
+                world->addSpring({anchor, free});
+            },
+            [&] {
+                world->addAngularSpring({free, anchor, free});
+            },
+            [&] {
+                world->addTorque({anchor, 1});
+            },
+            [&] {
+                world->addForce({anchor, {1, 0}});
+            },
             [&] { world->addJoint(revolute(free, anchor)); },
         };
         const std::string sentence = "body " + std::to_string(body) + " was removed";
@@ -269,7 +287,8 @@ TEST(Removal, JointsSpringsTorquesAndForcesGoWithTheirBody)
         const JointHandle joint = world->addJoint(revolute(on(body, {0, 0}), on(other, {60, 0})));
         const JointHandle kept = world->addJoint(revolute(background({60, 0}), on(other, {60, 0})));
         const ActuatorHandle spring = world->addSpring({on(body, {0, 0}), on(other, {60, 0})});
-        const ActuatorHandle angular = world->addAngularSpring({on(body, {0, 0}), on(other, {60, 0}), background({60, 50})});
+        const ActuatorHandle angular =
+            world->addAngularSpring({on(body, {0, 0}), on(other, {60, 0}), background({60, 50})});
         const ActuatorHandle torque = world->addTorque({on(body, {0, 0}), 100});
         const ActuatorHandle force = world->addForce({on(body, {0, 0}), {100, 0}});
         const ActuatorHandle own = world->addForce({on(other, {60, 0}), {1, 0}});
@@ -535,7 +554,9 @@ private:
         case 0:
         case 1:
         case 2:
-        case 3: kinds()[static_cast<std::size_t>(pick(static_cast<int>(kinds().size())))].add(*world_, somewhere()); return;
+        case 3:
+            kinds()[static_cast<std::size_t>(pick(static_cast<int>(kinds().size())))].add(*world_, somewhere());
+            return;
         case 4:
         case 5:
         case 6: return attempt([&] { out.removeBody(1 + any); });
