@@ -1,13 +1,18 @@
 // Physics engines and their worlds under guard.
 #include "guarded_object.hpp"
 
+#include <jet/physics_removal.hpp>
+
 namespace jet::host {
 
 namespace {
 
 /// A world that failed is in no state to go on: the run ends with a Failure. A Failure from the world itself is a word
 /// about what it was given, and passes: the plugin is not at fault.
-class GuardedWorld final : public PhysicsWorld, GuardedObject<PhysicsWorld, Callback::WorldDestroy> {
+class GuardedWorld final : public PhysicsWorld,
+                           public WorldRemoval,
+                           public LiveAngularSprings,
+                           GuardedObject<PhysicsWorld, Callback::WorldDestroy> {
     // First of all, since their types are deduced.
     template <class Fn>
     auto use(Callback callback, Fn&& fn) const
@@ -251,6 +256,32 @@ public:
     void setPinned(BodyHandle body, std::uint32_t particle, bool pinned) override
     {
         act([&](PhysicsWorld& w) { w.setPinned(body, particle, pinned); });
+    }
+
+    // Of these, the world under guard may have none: then it is refused.
+    void removeBody(BodyHandle body) override
+    {
+        act([&](PhysicsWorld& w) { removal(w).removeBody(body); });
+    }
+    void removeActuator(ActuatorKind kind, ActuatorHandle actuator) override
+    {
+        act([&](PhysicsWorld& w) { removal(w).removeActuator(kind, actuator); });
+    }
+    bool hasBody(BodyHandle body) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return removal(w).hasBody(body); });
+    }
+    bool hasActuator(ActuatorKind kind, ActuatorHandle actuator) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return removal(w).hasActuator(kind, actuator); });
+    }
+    bool hasJoint(JointHandle joint) const override
+    {
+        return use(Callback::WorldRead, [&](PhysicsWorld& w) { return removal(w).hasJoint(joint); });
+    }
+    void setAngularSpring(ActuatorHandle spring, std::optional<double> restAngle, double ks, double kd) override
+    {
+        act([&](PhysicsWorld& w) { liveAngularSprings(w).setAngularSpring(spring, restAngle, ks, kd); });
     }
 
     std::vector<std::byte> save() const override

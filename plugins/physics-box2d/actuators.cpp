@@ -27,9 +27,10 @@ ActuatorHandle Stage::add(const SpringActuatorDef& def)
     made.collideConnected = true;
     // A spring from a body to itself, or within the background, does nothing.
     if (a.body != b.body) spring.joint = static_cast<b2DistanceJoint*>(world_->CreateJoint(&made));
-    springs_.push_back(spring);
-    applySpring(springs_.back());
-    return static_cast<ActuatorHandle>(springs_.size() - 1);
+    const ActuatorHandle handle = put(springs_, spring);
+    applySpring(springs_[handle]);
+    ++changes_;
+    return handle;
 }
 
 /// Box2D's distance joint with a stiffness is a spring computed with the state at the end of the step: it cannot
@@ -89,14 +90,25 @@ ActuatorHandle Stage::add(const AngularSpringActuatorDef& def)
     spring.a = end(def.a), spring.centre = end(def.centre), spring.b = end(def.b);
     spring.angle = angleAt(spring);
     spring.rest = def.restFromPose ? spring.angle : def.restAngle;
-    angularSprings_.push_back(spring);
-    return static_cast<ActuatorHandle>(angularSprings_.size() - 1);
+    ++changes_;
+    return put(angularSprings_, spring);
+}
+
+void Stage::setAngularSpring(ActuatorHandle handle, std::optional<double> restAngle, double ks, double kd)
+{
+    AngularSpring& spring = angularSprings_[handle];
+    spring.def.ks = ks, spring.def.kd = kd;
+    for (const End& held : {spring.a, spring.centre, spring.b}) held.body->SetAwake(true);
+    if (!restAngle || *restAngle == spring.rest) return;
+    spring.rest = *restAngle;
+    spring.angle = spring.rest + std::remainder(spring.angle - spring.rest, 2 * std::numbers::pi);
 }
 
 /// The torque ks (rest - angle) - kd rate, taken at the end of the step so that no stiffness explodes, as two forces at
 /// right angles to the legs; what holds the centre makes forces and torques sum to zero.
 void Stage::push(AngularSpring& s, double h) const
 {
+    if (s.removed) return;
     const Vec2 a = placeOf(s.a) - placeOf(s.centre), b = placeOf(s.b) - placeOf(s.centre);
     const double squaredA = a.squaredNorm(), squaredB = b.squaredNorm();
     if (!(squaredA > 1e-12) || !(squaredB > 1e-12)) return;
@@ -113,14 +125,14 @@ void Stage::push(AngularSpring& s, double h) const
 
 ActuatorHandle Stage::add(const TorqueActuatorDef& def)
 {
-    torques_.push_back({def.at.body == kNoHandle ? nullptr : bodies_[def.at.body].body, def.value});
-    return static_cast<ActuatorHandle>(torques_.size() - 1);
+    ++changes_;
+    return put(torques_, Torque{def.at.body == kNoHandle ? nullptr : bodies_[def.at.body].body, def.value});
 }
 
 ActuatorHandle Stage::add(const ForceActuatorDef& def)
 {
-    forces_.push_back({end(def.at), def.force});
-    return static_cast<ActuatorHandle>(forces_.size() - 1);
+    ++changes_;
+    return put(forces_, Force{end(def.at), def.force});
 }
 
 void Stage::setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }

@@ -72,13 +72,14 @@ JointHandle Stage::add(const JointDef& def)
     connect(joint);
     joint.restAngle = static_cast<double>(joint.joint->GetBodyB()->GetAngle() - joint.joint->GetBodyA()->GetAngle());
     configure(joint);
-    joints_.push_back(joint);
+    const JointHandle handle = put(joints_, joint);
+    ++changes_;
     if (!def.collide && def.a.body != kNoHandle && def.b.body != kNoHandle &&
         book_.joined.insert(std::minmax(def.a.body, def.b.body)).second) {
         refilter(bodies_[def.a.body]);
         refilter(bodies_[def.b.body]);
     }
-    return static_cast<JointHandle>(joints_.size() - 1);
+    return handle;
 }
 
 void Stage::connect(Joint& joint)
@@ -270,11 +271,11 @@ void Stage::breakJoint(Joint& joint)
 void Stage::removeJoint(JointHandle handle)
 {
     Joint& joint = joints_[handle];
-    if (!joint.joint) return;
-    joint.state = stateOf(joint);
-    joint.state.force = Vec2(0, 0), joint.state.torque = 0;
-    world_->DestroyJoint(joint.joint);
-    joint.joint = nullptr;
+    if (joint.joint) world_->DestroyJoint(joint.joint);
+    for (b2Body* ground : {joint.groundA, joint.groundB})
+        if (ground) world_->DestroyBody(ground);
+    joint = Joint();
+    joint.removed = true;
     findJoined();
 }
 

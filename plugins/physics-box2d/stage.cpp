@@ -88,18 +88,24 @@ BodyHandle Stage::add(const RigidBodyDef& def)
     made.gravityScale = static_cast<float>(def.common.gravityScale);
     made.fixedRotation = def.common.fixedRotation;
     made.allowSleep = def.common.allowSleep;
-    made.userData.pointer = bodies_.size() + 1;
+    const BodyHandle handle = nextBody();
+    made.userData.pointer = handle + std::size_t{1};
     body.body = world_->CreateBody(&made);
-    bodies_.push_back(body);  // before the fixtures: the filter looks it up
+    const bool isNew = handle == bodies_.size();
+    if (isNew) bodies_.emplace_back();
+    Body before = std::move(bodies_[handle]);
+    bodies_[handle] = body;  // before the fixtures: the filter looks it up
     try {
         addFixtures(*body.body, clean, moments.centroid);
     } catch (...) {
         world_->DestroyBody(body.body);
-        bodies_.pop_back();
+        bodies_[handle] = std::move(before);
+        if (isNew) bodies_.pop_back();
         throw;
     }
-    applyMass(bodies_.back());
-    const auto handle = static_cast<BodyHandle>(bodies_.size() - 1);
+    if (before.body != nullptr) world_->DestroyBody(before.body);
+    free_.erase(handle), ++changes_;
+    applyMass(bodies_[handle]);
     setVelocity(handle, def.common.velocity);
     setOmega(handle, def.common.omega);
     return handle;

@@ -5,10 +5,15 @@
 #include "contact_book.hpp"
 #include "outline.hpp"
 
+#include <jet/physics_removal.hpp>
+
 #include <box2d/b2_joint.h>
 #include <box2d/b2_world.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
+#include <set>
 
 class b2DistanceJoint;
 
@@ -24,12 +29,13 @@ struct Body {
     bool solid = true;                  // made of closed rings; not of shapes
     double thinnest = 0;                // units: the smaller side of its box at rest
     Vec2 force{0, 0};                   // for the next step only
+    bool removed = false;               // a body of Box2D's that is nothing keeps its place
 };
 
 struct Spring {
     b2DistanceJoint* joint = nullptr;
     SpringActuatorDef def;
-    bool torn = false;
+    bool torn = false, removed = false;
 };
 
 struct End {
@@ -41,16 +47,19 @@ struct AngularSpring {
     AngularSpringActuatorDef def;
     End a, centre, b;
     double rest = 0, angle = 0;  // the latter unwrapped from step to step
+    bool removed = false;
 };
 
 struct Torque {
     b2Body* body = nullptr;
     double value = 0;
+    bool removed = false;
 };
 
 struct Force {
     End at;
     Vec2 value{0, 0};
+    bool removed = false;
 };
 
 struct Joint {
@@ -59,7 +68,8 @@ struct Joint {
     b2Body *groundA = nullptr, *groundB = nullptr;  // where it holds the background
     b2Vec2 localTarget{0, 0};                       // of a mouse joint that follows a body, in that body's frame
     double restAngle = 0, length = 0;
-    JointState state;  // the last one, once it is broken or removed
+    JointState state;  // the last one, once it is broken
+    bool removed = false;
 };
 
 class Stage {
@@ -89,6 +99,12 @@ public:
     void setJoint(JointHandle, const JointDef&);
     void setJointTarget(JointHandle, const Vec2& target);
     void removeJoint(JointHandle);
+    void setAngularSpring(ActuatorHandle, std::optional<double> restAngle, double ks, double kd);
+    // See removal.cpp.
+    void removeBody(BodyHandle);
+    void removeActuator(ActuatorKind, ActuatorHandle);
+    bool has(ActuatorKind, ActuatorHandle) const;
+    std::size_t count(ActuatorKind) const;
     void applyForce(BodyHandle, const Vec2& force);
     void applyImpulse(BodyHandle, const Vec2& impulse);
     void wake(BodyHandle);
@@ -104,10 +120,14 @@ public:
     const std::vector<Contact>& contacts() const { return reports_; }
     const ContactBook& book() const { return book_; }
     const StepStats& stats() const { return stats_; }
+    /// How often something was added or removed.
+    std::uint32_t changes() const { return changes_; }
     JointState stateOf(const Joint&) const;
     std::vector<std::uint32_t> islands() const;
 
 private:
+    BodyHandle nextBody() const;
+    void createPlaceholder(BodyHandle, const b2Vec2& at);
     End end(const Anchor&);
     b2Body* background(const Vec2& at);
     void applyMass(Body&);
@@ -141,7 +161,24 @@ private:
     std::vector<Contact> reports_;
     StepStats stats_;
     double lastSubstep_ = 1.0 / 60;
+    std::set<BodyHandle> free_;           // removed, for bodies that are added
+    std::vector<BodyHandle> removedNow_;  // since the last step
+    std::uint32_t changes_ = 0;
 };
+
+/// One more, at its handle: that of the first that was removed, else behind all others.
+template <class Actuator>
+ActuatorHandle put(std::vector<Actuator>& all, const Actuator& one)
+{
+    const auto free = std::find_if(all.begin(), all.end(), [](const Actuator& other) { return other.removed; });
+    const auto handle = static_cast<ActuatorHandle>(free - all.begin());
+    if (free == all.end()) {
+        all.push_back(one);
+    } else {
+        *free = one;
+    }
+    return handle;
+}
 
 /// Border point or centre of a body now, scene units.
 Vec2 placeOf(const Body&, const Vec2& local);

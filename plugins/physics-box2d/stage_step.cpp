@@ -85,6 +85,8 @@ void Stage::step(double dt)
     stats_ = StepStats();
     stats_.substeps = static_cast<std::uint32_t>(count);
     book_.beginStep(dt);
+    free_.insert(removedNow_.begin(), removedNow_.end());
+    removedNow_.clear();
     for (int i = 0; i < count; ++i) {
         watchFastBodies(h);
         pushBodies(h);

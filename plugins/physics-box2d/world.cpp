@@ -26,6 +26,11 @@ void World::does(const Entry& entry)
 void World::doesSpecial(Special special)
 {
     special(*stage_);
+    remember(std::move(special));
+}
+
+void World::remember(Special special)
+{
     history_.add({Deed::Special, static_cast<std::uint32_t>(special_.size()), 1, 0, 0, 0});
     special_.push_back(std::move(special));
     changed();
@@ -105,22 +110,21 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     if (corners > kMostCorners)
         fail(named("body", bodyCount()) + ": its outline has " + std::to_string(corners) + " corners, more than " +
              std::to_string(kMostCorners) + "; draw it with fewer.");
-    doesSpecial([def](Stage& stage) { stage.add(def); });
-    return static_cast<BodyHandle>(bodyCount() - 1);
+    return adds(def);
 }
 
 ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 {
     checks().check(static_cast<ActuatorHandle>(stage_->springs().size()), def, bodyCount());
-    doesSpecial([def](Stage& stage) { stage.add(def); });
-    return static_cast<ActuatorHandle>(stage_->springs().size() - 1);
+    requireBodies({&def.a, &def.b});
+    return adds(def);
 }
 
 ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 {
     checks().check(static_cast<ActuatorHandle>(stage_->angularSprings().size()), def, bodyCount());
-    doesSpecial([def](Stage& stage) { stage.add(def); });
-    return static_cast<ActuatorHandle>(stage_->angularSprings().size() - 1);
+    requireBodies({&def.a, &def.centre, &def.b});
+    return adds(def);
 }
 
 ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
@@ -128,8 +132,8 @@ ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
     const std::string item = named("torque", stage_->torques().size());
     checks().check(item, def.at, bodyCount());
     checks().number(item, "value", def.value);
-    doesSpecial([def](Stage& stage) { stage.add(def); });
-    return static_cast<ActuatorHandle>(stage_->torques().size() - 1);
+    requireBodies({&def.at});
+    return adds(def);
 }
 
 ActuatorHandle World::addForce(const ForceActuatorDef& def)
@@ -137,8 +141,8 @@ ActuatorHandle World::addForce(const ForceActuatorDef& def)
     const std::string item = named("force", stage_->forces().size());
     checks().check(item, def.at, bodyCount());
     checks().number(item, "value", def.force);
-    doesSpecial([def](Stage& stage) { stage.add(def); });
-    return static_cast<ActuatorHandle>(stage_->forces().size() - 1);
+    requireBodies({&def.at});
+    return adds(def);
 }
 
 JointHandle World::addJoint(const JointDef& def)
@@ -146,8 +150,8 @@ JointHandle World::addJoint(const JointDef& def)
     const auto handle = static_cast<JointHandle>(jointCount());
     checks().checkAnchors(handle, def, bodyCount());
     check(handle, def);
-    doesSpecial([def](Stage& stage) { stage.add(def); });
-    return static_cast<JointHandle>(jointCount() - 1);
+    requireBodies({&def.a, &def.b});
+    return adds(def);
 }
 
 void World::step(double dt)
@@ -164,49 +168,49 @@ void World::step(double dt)
 
 void World::setTorque(ActuatorHandle torque, double value)
 {
-    requireBelow("torque", torque, stage_->torques().size());
+    requireActuator(ActuatorKind::Torque, torque);
     checks().number(named("torque", torque), "value", value);
     does({Deed::SetTorque, torque, 1, 0, value, 0});
 }
 
 void World::setForce(ActuatorHandle force, const Vec2& value)
 {
-    requireBelow("force", force, stage_->forces().size());
+    requireActuator(ActuatorKind::Force, force);
     checks().number(named("force", force), "value", value);
     does({Deed::SetForce, force, 1, 0, value.x(), value.y()});
 }
 
 void World::applyForce(BodyHandle body, const Vec2& force)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().number(named("body", body), "force", force);
     does({Deed::ApplyForce, body, 1, 0, force.x(), force.y()});
 }
 
 void World::applyImpulse(BodyHandle body, const Vec2& impulse)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().number(named("body", body), "impulse", impulse);
     does({Deed::ApplyImpulse, body, 1, 0, impulse.x(), impulse.y()});
 }
 
 void World::setVelocity(BodyHandle body, const Vec2& velocity)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().number(named("body", body), "velocity", velocity);
     does({Deed::SetVelocity, body, 1, 0, velocity.x(), velocity.y()});
 }
 
 void World::setOmega(BodyHandle body, double omega)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().number(named("body", body), "turning rate", omega);
     does({Deed::SetOmega, body, 1, 0, omega, 0});
 }
 
 void World::setPosition(BodyHandle body, const Vec2& centre)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().place(named("body", body), "position", centre);
     does({Deed::SetPosition, body, 1, 0, centre.x(), centre.y()});
 }
@@ -229,7 +233,7 @@ void World::setSettings(const WorldSettings& settings)
 
 void World::setBody(BodyHandle body, const BodyCommon& common)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().check(body, common, settings_.materialCount);
     if (common.fixed != stage_->bodies()[body].common.fixed)
         fail(named("body", body) + " cannot become fixed or free while the world runs; make it kinematic instead.");
@@ -238,20 +242,20 @@ void World::setBody(BodyHandle body, const BodyCommon& common)
 
 void World::setMass(BodyHandle body, double mass)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     checks().checkMass(body, mass);
     does({Deed::SetMass, body, 1, 0, mass, 0});
 }
 
 void World::setEnabled(BodyHandle body, bool enabled)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     does({Deed::SetEnabled, body, 1, enabled, 0, 0});
 }
 
 void World::setJoint(JointHandle joint, const JointDef& def)
 {
-    requireBelow("joint", joint, jointCount());
+    requireJoint(joint);
     JointDef whole = def;
     whole.a = stage_->joints()[joint].def.a, whole.b = stage_->joints()[joint].def.b;
     check(joint, whole);
@@ -260,7 +264,7 @@ void World::setJoint(JointHandle joint, const JointDef& def)
 
 void World::setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio)
 {
-    requireBelow("spring", spring, stage_->springs().size());
+    requireActuator(ActuatorKind::Spring, spring);
     const std::string item = named("spring", spring);
     checks().number(item, "rest length", restLength);
     checks().spring(item, ks, kd, tearRatio);
@@ -269,20 +273,20 @@ void World::setSpring(ActuatorHandle spring, double restLength, double ks, doubl
 
 JointState World::joint(JointHandle joint) const
 {
-    requireBelow("joint", joint, jointCount());
+    requireJoint(joint);
     return stage_->stateOf(stage_->joints()[joint]);
 }
 
 void World::setMotor(JointHandle joint, bool driven, double speed)
 {
-    requireBelow("joint", joint, jointCount());
+    requireJoint(joint);
     checks().number(named("joint", joint), "motor speed", speed);
     does({Deed::SetMotor, joint, 1, driven, speed, 0});
 }
 
 void World::setJointTarget(JointHandle joint, const Vec2& target)
 {
-    requireBelow("joint", joint, jointCount());
+    requireJoint(joint);
     checks().place(named("joint", joint), "target", target);
     const Joint& found = stage_->joints()[joint];
     if (!found.groundA && !found.groundB)
@@ -292,25 +296,25 @@ void World::setJointTarget(JointHandle joint, const Vec2& target)
 
 void World::removeJoint(JointHandle joint)
 {
-    requireBelow("joint", joint, jointCount());
+    requireJoint(joint);
     does({Deed::RemoveJoint, joint, 1, 0, 0, 0});
 }
 
 bool World::awake(BodyHandle body) const
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     return stage_->bodies()[body].body->IsAwake();
 }
 
 void World::wake(BodyHandle body)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     does({Deed::Wake, body, 1, 0, 0, 0});
 }
 
 std::uint32_t World::island(BodyHandle body) const
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     read();
     if (islands_.empty()) islands_ = stage_->islands();
     return islands_[body];
@@ -345,11 +349,14 @@ BodyStates World::bodies() const
     return {r.position, r.angle, r.velocity, r.omega, r.bounds, r.firstPoint, r.points};
 }
 
-bool World::touching(BodyHandle a, BodyHandle b) const { return stage_->book().touching(a, b); }
+bool World::touching(BodyHandle a, BodyHandle b) const
+{
+    return hasBody(a) && hasBody(b) && stage_->book().touching(a, b);
+}
 
 bool World::contains(BodyHandle handle, const Vec2& point) const
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     if (!isFinite(point)) return false;
     const Body& body = stage_->bodies()[handle];
     if (!body.body->IsEnabled()) return false;
@@ -425,9 +432,9 @@ void World::restore(std::span<const std::byte> state)
         if (!fresh) stage_ = again(history_);  // half a future is none
         throw;
     }
-    if (stage.bodies().size() != bodyCount() || stage.joints().size() != jointCount())
-        fail("the saved state is of a time before bodies or joints were added; it can only be restored with all of "
-             "them.");
+    if (stage.changes() != stage_->changes())
+        fail("the saved state is of a time before something was added or removed; it can only be restored into a world "
+             "of the same bodies, joints, springs, torques and forces.");
     if (fresh) stage_ = std::move(fresh);
     history_ = std::move(wanted);
     changed();

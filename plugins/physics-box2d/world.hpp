@@ -8,7 +8,7 @@
 
 namespace jet::box2d {
 
-class World final : public PhysicsWorld {
+class World final : public PhysicsWorld, public WorldRemoval, public LiveAngularSprings {
 public:
     explicit World(const WorldSettings&);
 
@@ -52,6 +52,14 @@ public:
     void setJointTarget(JointHandle, const Vec2& target) override;
     void removeJoint(JointHandle) override;
 
+    void setAngularSpring(ActuatorHandle, std::optional<double> restAngle, double ks, double kd) override;
+
+    void removeBody(BodyHandle) override;
+    void removeActuator(ActuatorKind, ActuatorHandle) override;
+    bool hasBody(BodyHandle) const override;
+    bool hasActuator(ActuatorKind, ActuatorHandle) const override;
+    bool hasJoint(JointHandle) const override;
+
     bool awake(BodyHandle) const override;
     void wake(BodyHandle) override;
     std::uint32_t island(BodyHandle) const override;
@@ -68,7 +76,20 @@ public:
 
 private:
     using Special = std::function<void(Stage&)>;
+    /// Its handle.
+    template <class Def>
+    std::uint32_t adds(const Def& def)
+    {
+        const std::uint32_t handle = stage_->add(def);
+        remember([def](Stage& stage) { stage.add(def); });
+        return handle;
+    }
+    void remember(Special);
 
+    void requireBody(BodyHandle) const;
+    void requireBodies(std::initializer_list<const Anchor*>) const;
+    void requireJoint(JointHandle) const;
+    void requireActuator(ActuatorKind, ActuatorHandle) const;
     void does(const Entry&);
     void doesSpecial(Special);
     void play(Stage&, const Entry&) const;

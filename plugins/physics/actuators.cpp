@@ -88,23 +88,20 @@ void addCouple(State& state, const BodyRecord& body, double torque)
 
 ActuatorHandle Actuators::add(const State& state, const SpringActuatorDef& def)
 {
-    Spring spring{resolveAnchor(state, def.a), resolveAnchor(state, def.b), def.restLength, def.ks, def.kd, 0};
+    Spring spring;
+    spring.a = resolveAnchor(state, def.a), spring.b = resolveAnchor(state, def.b);
+    spring.restLength = def.restLength, spring.ks = def.ks, spring.kd = def.kd;
     if (spring.restLength < 0) spring.restLength = (spring.a.position(state) - spring.b.position(state)).norm();
     if (def.tearRatio > 0) spring.tearLength = spring.restLength * def.tearRatio;
-    springs_.push_back(spring);
-    return static_cast<ActuatorHandle>(springs_.size() - 1);
+    return springs_.put(spring);
 }
 
 ActuatorHandle Actuators::add(const State& state, const AngularSpringActuatorDef& def)
 {
-    AngularSpring spring{resolveAnchor(state, def.a),
-                         resolveAnchor(state, def.centre),
-                         resolveAnchor(state, def.b),
-                         def.restAngle,
-                         def.ks,
-                         def.kd,
-                         0,
-                         0};
+    AngularSpring spring;
+    spring.a = resolveAnchor(state, def.a), spring.centre = resolveAnchor(state, def.centre);
+    spring.b = resolveAnchor(state, def.b);
+    spring.restAngle = def.restAngle, spring.ks = def.ks, spring.kd = def.kd;
     const Vec2 middle = spring.centre.position(state);
     spring.restA = (spring.a.position(state) - middle).squaredNorm();
     spring.restB = (spring.b.position(state) - middle).squaredNorm();
@@ -114,20 +111,53 @@ ActuatorHandle Actuators::add(const State& state, const AngularSpringActuatorDef
     AnchorJacobian jacobian;
     if (angleJacobian(state, spring.a, spring.centre, spring.b, jacobian))
         spring.restCompliance = jacobian.compliance(state);
-    angularSprings_.push_back(spring);
-    return static_cast<ActuatorHandle>(angularSprings_.size() - 1);
+    return angularSprings_.put(spring);
 }
 
 ActuatorHandle Actuators::add(const State& state, const TorqueActuatorDef& def)
 {
-    torques_.push_back({resolveAnchor(state, def.at), def.value});
-    return static_cast<ActuatorHandle>(torques_.size() - 1);
+    return torques_.put({resolveAnchor(state, def.at), def.value});
 }
 
 ActuatorHandle Actuators::add(const State& state, const ForceActuatorDef& def)
 {
-    forces_.push_back({resolveAnchor(state, def.at), def.force});
-    return static_cast<ActuatorHandle>(forces_.size() - 1);
+    return forces_.put({resolveAnchor(state, def.at), def.force});
+}
+
+Index Actuators::count(ActuatorKind kind) const
+{
+    switch (kind) {
+    case ActuatorKind::Spring: return static_cast<Index>(springs_.size());
+    case ActuatorKind::AngularSpring: return static_cast<Index>(angularSprings_.size());
+    case ActuatorKind::Torque: return static_cast<Index>(torques_.size());
+    case ActuatorKind::Force: return static_cast<Index>(forces_.size());
+    case ActuatorKind::ForceField: break;
+    }
+    return 0;
+}
+
+bool Actuators::exists(ActuatorKind kind, ActuatorHandle handle) const
+{
+    if (handle >= count(kind)) return false;
+    switch (kind) {
+    case ActuatorKind::Spring: return !springs_[handle].removed;
+    case ActuatorKind::AngularSpring: return !angularSprings_[handle].removed;
+    case ActuatorKind::Torque: return !torques_[handle].removed;
+    case ActuatorKind::Force: return !forces_[handle].removed;
+    case ActuatorKind::ForceField: break;
+    }
+    return false;
+}
+
+void Actuators::remove(ActuatorKind kind, ActuatorHandle handle)
+{
+    switch (kind) {
+    case ActuatorKind::Spring: springs_.remove(handle).alive = 0; return;
+    case ActuatorKind::AngularSpring: angularSprings_.remove(handle); return;
+    case ActuatorKind::Torque: torques_.remove(handle); return;
+    case ActuatorKind::Force: forces_.remove(handle); return;
+    case ActuatorKind::ForceField: return;
+    }
 }
 
 void Actuators::setSpring(ActuatorHandle handle, double restLength, double ks, double kd, double tearRatio)
@@ -144,6 +174,21 @@ bool Actuators::isSet(ActuatorHandle handle, double restLength, double ks, doubl
     const double tearLength = tearRatio > 0 ? spring.restLength * tearRatio : 0;
     return (restLength < 0 || restLength == spring.restLength) && ks == spring.ks && kd == spring.kd &&
            tearLength == spring.tearLength;
+}
+
+void Actuators::setAngularSpring(ActuatorHandle handle, std::optional<double> restAngle, double ks, double kd)
+{
+    AngularSpring& spring = angularSprings_[handle];
+    spring.ks = ks, spring.kd = kd;
+    if (!restAngle || *restAngle == spring.restAngle) return;
+    spring.restAngle = *restAngle;
+    spring.angle = spring.restAngle + wrapped(spring.angle - spring.restAngle);
+}
+
+bool Actuators::isSet(ActuatorHandle handle, std::optional<double> restAngle, double ks, double kd) const
+{
+    const AngularSpring& spring = angularSprings_[handle];
+    return restAngle.value_or(spring.restAngle) == spring.restAngle && ks == spring.ks && kd == spring.kd;
 }
 
 /// Torn springs count as if they were whole: what a restored world computes must not depend on when they tore.
@@ -208,7 +253,8 @@ void Actuators::addSpringForces(State& state)
         jacobian.addForce(state, -spring.ks * (length - spring.restLength) - spring.kd * jacobian.rate(state));
     }
     for (AngularSpring& spring : angularSprings_) {
-        if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) continue;
+        if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b))
+            continue;
         AnchorJacobian jacobian;
         if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) continue;
         spring.angle += wrapped(angleNow(state, spring.a, spring.centre, spring.b) - spring.angle);
@@ -266,7 +312,7 @@ void Actuators::apply(State& state, Spring& spring, double h, bool first)
 /// within soft bodies (soft_angular.cpp). Nor is it wound there.
 void Actuators::apply(State& state, AngularSpring& spring, double h, bool first)
 {
-    if (sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
+    if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
     AnchorJacobian jacobian;
     if (!angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) return;
     const Vec2 middle = spring.centre.position(state);

@@ -3,6 +3,11 @@
 
 #include "anchor.hpp"
 
+#include <jet/physics_removal.hpp>
+
+#include <algorithm>
+#include <optional>
+
 namespace jet::physics {
 
 class Actuators {
@@ -12,36 +17,55 @@ public:
     ActuatorHandle add(const State&, const TorqueActuatorDef&);
     ActuatorHandle add(const State&, const ForceActuatorDef&);
 
-    bool anySpring() const { return !springs_.empty() || !angularSprings_.empty(); }
-    bool any() const { return anySpring() || !torques_.empty() || !forces_.empty(); }
-    Index torqueCount() const { return static_cast<Index>(torques_.size()); }
-    Index forceCount() const { return static_cast<Index>(forces_.size()); }
-    Index springCount() const { return static_cast<Index>(springs_.size()); }
-    Index angularSpringCount() const { return static_cast<Index>(angularSprings_.size()); }
+    bool anySpring() const { return springs_.any() || angularSprings_.any(); }
+    bool any() const { return anySpring() || torques_.any() || forces_.any(); }
+    Index torqueCount() const { return count(ActuatorKind::Torque); }
+    Index forceCount() const { return count(ActuatorKind::Force); }
+    Index springCount() const { return count(ActuatorKind::Spring); }
+    Index angularSpringCount() const { return count(ActuatorKind::AngularSpring); }
+    /// With those that were removed, as handles go; 0 for fields of force.
+    Index count(ActuatorKind) const;
+    bool exists(ActuatorKind, ActuatorHandle) const;
+    /// The next of its kind takes its place.
+    void remove(ActuatorKind, ActuatorHandle);
+    /// Calls visit(body) for what it holds, of all but removed ones; the background is no body.
+    template <class Visit>
+    void eachHeld(ActuatorKind kind, ActuatorHandle handle, Visit&& visit) const
+    {
+        const auto held = [&](const AnchorPoint& anchor) {
+            if (anchor.body != kNone) visit(anchor.body);
+        };
+        switch (kind) {
+        case ActuatorKind::Spring: return held(springs_[handle].a), held(springs_[handle].b);
+        case ActuatorKind::AngularSpring:
+            return held(angularSprings_[handle].a), held(angularSprings_[handle].centre),
+                   held(angularSprings_[handle].b);
+        case ActuatorKind::Torque: return held(torques_[handle].at);
+        case ActuatorKind::Force: return held(forces_[handle].at);
+        case ActuatorKind::ForceField: return;
+        }
+    }
     /// restLength < 0: as it is. What is torn stays torn.
     void setSpring(ActuatorHandle, double restLength, double ks, double kd, double tearRatio);
     /// Would that change nothing?
     bool isSet(ActuatorHandle, double restLength, double ks, double kd, double tearRatio) const;
+    /// No restAngle: as it is.
+    void setAngularSpring(ActuatorHandle, std::optional<double> restAngle, double ks, double kd);
+    bool isSet(ActuatorHandle angularSpring, std::optional<double> restAngle, double ks, double kd) const;
     void setTorque(ActuatorHandle handle, double value) { torques_[handle].value = value; }
     void setForce(ActuatorHandle handle, const Vec2& value) { forces_[handle].force = value; }
     double torque(ActuatorHandle handle) const { return torques_[handle].value; }
     const Vec2& force(ActuatorHandle handle) const { return forces_[handle].force; }
     Index bodyOfTorque(ActuatorHandle handle) const { return torques_[handle].at.body; }
     Index bodyOfForce(ActuatorHandle handle) const { return forces_[handle].at.body; }
-    /// Calls visit(body, body) for what the spring holds together; kNone: the background.
-    template <class Visit>
-    void visitSpring(ActuatorHandle spring, Visit&& visit) const
-    {
-        visit(springs_[spring].a.body, springs_[spring].b.body);
-    }
-    /// The same for all whole springs.
+    /// Calls visit(body, body) for what whole springs hold together; kNone: the background.
     template <class Visit>
     void eachBond(Visit&& visit) const
     {
         for (const Spring& spring : springs_)
             if (spring.alive != 0) visit(spring.a.body, spring.b.body);
         for (const AngularSpring& spring : angularSprings_)
-            visit(spring.a.body, spring.centre.body), visit(spring.centre.body, spring.b.body);
+            if (!spring.removed) visit(spring.a.body, spring.centre.body), visit(spring.centre.body, spring.b.body);
     }
 
     /// What whole springs hold: visit(body, body, energy); ½ ks e e', e the strain now, e' before the last move over h.
@@ -51,7 +75,9 @@ public:
         for (const Spring& spring : springs_)
             if (spring.alive != 0) visit(spring.a.body, spring.b.body, energy(state, spring, h));
         for (const AngularSpring& spring : angularSprings_)
-            visit(spring.a.body != kNone ? spring.a.body : spring.centre.body, spring.b.body, energy(state, spring, h));
+            if (!spring.removed)
+                visit(spring.a.body != kNone ? spring.a.body : spring.centre.body, spring.b.body,
+                      energy(state, spring, h));
     }
 
     void addTo(StiffnessBounds&, const State&) const;
@@ -69,7 +95,8 @@ public:
     {
         for (Spring& spring : springs_)
             with(spring.alive), with(spring.restLength), with(spring.ks), with(spring.kd), with(spring.tearLength);
-        for (AngularSpring& spring : angularSprings_) with(spring.angle);
+        for (AngularSpring& spring : angularSprings_)
+            with(spring.angle), with(spring.restAngle), with(spring.ks), with(spring.kd);
         for (Torque& torque : torques_) with(torque.value);
         for (Force& force : forces_) with(force.force);
     }
@@ -77,24 +104,55 @@ public:
 private:
     struct Spring {
         AnchorPoint a, b;
-        double restLength, ks, kd, tearLength;
+        double restLength = 0, ks = 0, kd = 0, tearLength = 0;
         std::uint8_t alive = 1;
+        bool removed = false;
         double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
     };
     struct AngularSpring {
         AnchorPoint a, centre, b;
-        double restAngle, ks, kd, angle;
-        double restCompliance;
-        double restA = 0, restB = 0;        // units², of the arms at the time of adding
+        double restAngle = 0, ks = 0, kd = 0, angle = 0;
+        double restCompliance = 0;
+        double restA = 0, restB = 0;  // units², of the arms at the time of adding
+        bool removed = false;
         double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
     };
     struct Torque {
         AnchorPoint at;
-        double value;
+        double value = 0;
+        bool removed = false;
     };
     struct Force {
         AnchorPoint at;
-        Vec2 force;
+        Vec2 force = Vec2(0, 0);
+        bool removed = false;
+    };
+
+    /// Of one kind, in the order of their handles. Removed ones hold nothing, and are nothing.
+    template <class Actuator>
+    class List : public std::vector<Actuator> {
+    public:
+        bool any() const { return removed_ < this->size(); }
+        ActuatorHandle put(const Actuator& actuator)
+        {
+            if (removed_ == 0) {
+                this->push_back(actuator);
+                return static_cast<ActuatorHandle>(this->size() - 1);
+            }
+            const auto place = std::find_if(this->begin(), this->end(), [](const Actuator& a) { return a.removed; });
+            *place = actuator, --removed_;
+            return static_cast<ActuatorHandle>(place - this->begin());
+        }
+        Actuator& remove(ActuatorHandle handle)
+        {
+            ++removed_;
+            Actuator& actuator = (*this)[handle] = Actuator();
+            actuator.removed = true;
+            return actuator;
+        }
+
+    private:
+        std::size_t removed_ = 0;
     };
 
     static double energy(const State&, const Spring&, double h);
@@ -103,10 +161,10 @@ private:
     static void apply(State&, Spring&, double h, bool first);
     static void apply(State&, AngularSpring&, double h, bool first);
 
-    std::vector<Spring> springs_;
-    std::vector<AngularSpring> angularSprings_;
-    std::vector<Torque> torques_;
-    std::vector<Force> forces_;
+    List<Spring> springs_;
+    List<AngularSpring> angularSprings_;
+    List<Torque> torques_;
+    List<Force> forces_;
 };
 
 }  // namespace jet::physics

@@ -20,6 +20,11 @@ public:
         makeRoom(count - values_.size(), values_);
         values_.resize(count, usual_);
     }
+    /// No rows from `count` on.
+    void cut(std::size_t count)
+    {
+        if (values_.size() > count) values_.resize(count, usual_);
+    }
     void fit() { values_.shrink_to_fit(); }
     std::size_t capacity() const { return values_.capacity(); }
     /// Rows that have room.

@@ -115,7 +115,8 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     const auto start = std::chrono::steady_clock::now();
     // Nothing can meet where there is only one body.
     std::size_t bodies = 0;
-    for (const BodyRecord& body : state.bodies) bodies += body.points.count == 0 ? 0 : body.meetsOwn() ? 2 : 1;
+    for (const BodyRecord& body : state.bodies)
+        bodies += body.points.count == 0 || body.removed ? 0 : body.meetsOwn() ? 2 : 1;
     lonely_ = bodies < 2;
     softPairs_.clear();
     if (lonely_) {

@@ -4,6 +4,8 @@
 #include "surface.hpp"
 #include "validation.hpp"
 
+#include <algorithm>
+
 namespace jet::physics {
 
 namespace {
@@ -56,8 +58,20 @@ ForceFields::Field ForceFields::made(Index handle, const ForceFieldDef& def)
 
 Index ForceFields::add(const ForceFieldDef& def)
 {
-    fields_.push_back(made(count(), def));
-    return count() - 1;
+    Field field = made(count(), def);
+    if (removed_ == 0) {
+        fields_.push_back(std::move(field));
+        return count() - 1;
+    }
+    const auto place = std::find_if(fields_.begin(), fields_.end(), [](const Field& f) { return f.removed; });
+    *place = std::move(field), --removed_;
+    return static_cast<Index>(place - fields_.begin());
+}
+
+void ForceFields::remove(Index field)
+{
+    fields_[field] = Field(ForceFieldDef());
+    fields_[field].removed = true, ++removed_;
 }
 
 void ForceFields::set(Index field, const ForceFieldDef& def)
@@ -78,7 +92,8 @@ bool ForceFields::isSet(Index field, const ForceFieldDef& def) const
 
 void ForceFields::restored()
 {
-    for (Field& field : fields_) field = Field(ForceFieldDef(field.def));
+    for (Field& field : fields_)
+        if (!field.removed) field = Field(ForceFieldDef(field.def));
 }
 
 double ForceFields::Field::slowing(double h) const
@@ -195,6 +210,7 @@ void ForceFields::act(State& state, const RigidStage& rigid, const Field& field,
 void ForceFields::addForces(State& state, const RigidStage& rigid, const Vec2& gravity, double h) const
 {
     for (const Field& field : fields_) {
+        if (field.removed) continue;
         for (Index handle = 0; handle < state.bodies.size(); ++handle) {
             const BodyRecord& body = state.bodies[handle];
             if (!body.fixed) act(state, rigid, field, handle, body.gravityScale * gravity, h);

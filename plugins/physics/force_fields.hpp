@@ -17,7 +17,12 @@ public:
     void set(Index field, const ForceFieldDef&);
     /// Would that change nothing?
     bool isSet(Index field, const ForceFieldDef&) const;
+    /// With those that were removed, as handles go.
     Index count() const { return static_cast<Index>(fields_.size()); }
+    bool exists(Index field) const { return field < count() && !fields_[field].removed; }
+    bool any() const { return removed_ < fields_.size(); }
+    /// The next one takes its place.
+    void remove(Index field);
 
     /// Adds the forces of all fields to the nodes, for a substep of h.
     void addForces(State&, const RigidStage&, const Vec2& gravity, double h) const;
@@ -46,6 +51,7 @@ private:
         ForceFieldDef def;
         EdgeGrid region;
         std::vector<Piece> pieces;
+        bool removed = false;
 
         /// Does what it does to a surface follow from its area, centroid and moment?
         bool isLinear() const
@@ -64,6 +70,7 @@ private:
     static void actOnSurface(Pull&, std::span<const Part>);
 
     std::vector<Field> fields_;
+    std::size_t removed_ = 0;
 };
 
 }  // namespace jet::physics

@@ -37,9 +37,37 @@ bool isBefore(const QueryEdge& edge, const Vec2& at) { return outOf(edge).dot(at
 
 void Queries::addSoft(Index body)
 {
-    makeRoom(1, items_);
-    items_.push_back({body, kNone, {}});
+    Kept item;
+    item.body = body;
+    keep(item);
     outdated_ = true;
+}
+
+/// Behind others of its body.
+void Queries::keep(const Kept& item)
+{
+    makeRoom(1, items_);
+    const auto place = std::upper_bound(items_.begin(), items_.end(), item.body,
+                                        [](Index body, const Kept& other) { return body < other.body; });
+    items_.insert(place, item);
+}
+
+void Queries::remove(Index body)
+{
+    outdated_ = true;
+    const auto first = std::lower_bound(items_.begin(), items_.end(), body,
+                                        [](const Kept& item, Index handle) { return item.body < handle; });
+    auto end = first;
+    for (; end != items_.end() && end->body == body; ++end) {
+        if (end->round == kNone) continue;
+        // The last one fills the gap.
+        const auto last = static_cast<Index>(rounds_.size() - 1);
+        for (Kept& other : items_)
+            if (other.round == last) other.round = end->round;
+        rounds_[end->round] = rounds_[last];
+        rounds_.pop_back();
+    }
+    items_.erase(first, end);
 }
 
 void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def)
@@ -48,11 +76,10 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
     const BodyRecord& body = state.bodies[handle];
     anySingle_ |= body.single;
     if (body.single) return;
-    makeRoom(1, items_);
     Kept item;
     item.body = handle;
     if (def.shapes.empty() || !def.borders.empty()) {
-        items_.push_back(item);
+        keep(item);
         return;
     }
     // Each shape has its own ring of points and walls, in order.
@@ -73,8 +100,7 @@ void Queries::addRigid(const State& state, Index handle, const RigidBodyDef& def
         }
         item.open = shape.kind == ShapeDef::Kind::Chain;
         if (item.open) item.walls.count = static_cast<Index>(shape.points.size() - 1);
-        makeRoom(1, items_);
-        items_.push_back(item);
+        keep(item);
     }
 }
 

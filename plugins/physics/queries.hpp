@@ -18,6 +18,7 @@ public:
     /// After a body was added.
     void addSoft(Index body);
     void addRigid(const State&, Index body, const RigidBodyDef&);
+    void remove(Index body);
 
     /// Bodies have moved, come or gone since the last query.
     void outdate() { outdated_ = true; }
@@ -69,6 +70,7 @@ private:
 
     /// The kept ones, then bodies by their handles, of which those of one shape are items.
     Item itemAt(std::size_t index) const;
+    void keep(const Kept&);
     Item itemOf(Index body) const;
     static bool seen(const State&, Index body, const QueryFilter&);
     static Frame frameOf(const State&, const Item&);

@@ -25,6 +25,11 @@ public:
     /// particles), what was not built at rest, and what is nailed down has none.
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
+    void remove(BodyHandle body)
+    {
+        std::erase_if(lattices_, [body](const Lattice& lattice) { return lattice.body == body; });
+    }
+
     void use(const soft::CloudKernels& kernels) { kernels_ = &kernels; }
     /// Once a step, before its substeps, where nothing can hit the bodies: those that cannot come near their tolerance
     /// within dt are left out of it.

@@ -79,13 +79,17 @@ struct SoftSprings::Corner {
     }
 };
 
-void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf)
+void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf,
+                             Index place)
 {
-    Angular spring{nodeOf[def.a], nodeOf[def.centre], nodeOf[def.b], def.restAngle, def.ks, def.kd, 0, 0};
+    Angular spring;
+    spring.a = nodeOf[def.a], spring.centre = nodeOf[def.centre], spring.b = nodeOf[def.b];
+    spring.restAngle = def.restAngle, spring.ks = def.ks, spring.kd = def.kd;
     const Corner corner(state, spring);
     spring.angle = def.restAngle + wrapped(corner.angle() - def.restAngle);
     spring.restCompliance = corner.compliance;
-    angular_.push_back(spring);
+    if (place == angular_.size()) angular_.emplace_back();
+    angular_[place] = spring, ++turning_;
 }
 
 double SoftSprings::energy(const State& state, const Angular& spring, double h)
@@ -111,6 +115,7 @@ void SoftSprings::addAngularForces(State& state)
 {
     Nodes& nodes = state.nodes;
     for (Angular& spring : angular_) {
+        if (spring.a == kNone) continue;
         const Vec2 armA = nodes.position[spring.a] - nodes.position[spring.centre];
         const Vec2 armB = nodes.position[spring.b] - nodes.position[spring.centre];
         const AngleGradient gradient(armA, armB);
@@ -132,6 +137,7 @@ void SoftSprings::addAngularForces(State& state)
 /// there.
 void SoftSprings::applyAngularSpring(State& state, Angular& spring, double h)
 {
+    if (spring.a == kNone) return;
     Nodes& nodes = state.nodes;
     const Corner corner(state, spring);
     const AngleGradient& gradient = corner.gradient;

@@ -36,22 +36,28 @@ bool fitsKernels(const SoftBodyDef& def)
 
 void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle body, std::span<const Index> nodeOf)
 {
-    meshes_.resize(body + std::size_t{1});
-    torn_.resize(body + std::size_t{1}, 0);
+    meshes_.resize(std::max<std::size_t>(meshes_.size(), body + std::size_t{1}));
+    torn_.resize(meshes_.size(), 0);
     Mesh& mesh = meshes_[body];
     mesh.nodes = state.bodies[body].nodes;
-    mesh.springs = {springCount(), static_cast<Index>(def.springs.size())};
+    mesh.springs = state.bodies[body].soft->springs;
     for (const SpringDef& spring : def.springs) mesh.tears |= spring.tearRatio > 0;
     const std::size_t count = def.springs.size();
-    makeRoom(count, a_, b_, rest_, kind_, alive_);
-    if (!drawn_.empty()) makeRoom(count, drawn_);
-    for (const SpringDef& spring : def.springs) {
-        a_.push_back(nodeOf[spring.a]);
-        b_.push_back(nodeOf[spring.b]);
-        rest_.push_back(spring.restLength);
-        if (!drawn_.empty()) drawn_.push_back(spring.restLength);
-        kind_.push_back(kindLike(spring));
-        alive_.push_back(spring.a != spring.b);
+    if (mesh.springs.first == springCount()) {
+        const auto extend = [count](auto& rows) { makeRoom(count, rows), rows.resize(rows.size() + count); };
+        const bool flowed = !drawn_.empty();
+        extend(a_), extend(b_), extend(rest_), extend(kind_), extend(alive_);
+        if (flowed) extend(drawn_);
+    }
+    dropUnusedKinds();
+    for (Index k = 0; k < count; ++k) {
+        const SpringDef& spring = def.springs[k];
+        const Index i = mesh.springs.first + k;
+        a_[i] = nodeOf[spring.a], b_[i] = nodeOf[spring.b];
+        rest_[i] = spring.restLength;
+        if (!drawn_.empty()) drawn_[i] = spring.restLength;
+        kind_[i] = kindLike(spring);
+        alive_[i] = spring.a != spring.b;
     }
     const bool wide = fitsKernels(def);
     anyOneByOne_ |= !wide && count > 0;
@@ -61,7 +67,43 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         measureBias(state, mesh);
         arranged_ = false;
     }
-    for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf);
+    Index place = state.bodies[body].soft->angularSprings.first;
+    for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf, place++);
+}
+
+/// Its rows stay for another body's.
+void SoftSprings::remove(Index body)
+{
+    Mesh& mesh = meshes_[body];
+    const Range rows = mesh.springs;
+    if (mesh.wide && arranged_ && !batches_[mesh.batch].alike()) batches_[mesh.batch].bodies.front() = kNone;
+    if (mesh.wide) arranged_ = false;
+    std::fill_n(alive_.begin() + rows.first, rows.count, std::uint8_t{0});
+    std::fill_n(kind_.begin() + rows.first, rows.count, Index{0});
+    for (Angular& spring : angular_) {
+        if (spring.a == kNone || spring.a < mesh.nodes.first || spring.a >= mesh.nodes.end()) continue;
+        spring = Angular(), --turning_;
+    }
+    mesh = Mesh();
+    torn_[body] = 0;
+    anyTorn_ = std::any_of(torn_.begin(), torn_.end(), [](Index torn) { return torn > 0; });
+    anyOneByOne_ = std::any_of(meshes_.begin(), meshes_.end(),
+                               [](const Mesh& other) { return !other.wide && other.springs.count > 0; });
+}
+
+/// Where bodies of ever other springs come and go.
+void SoftSprings::dropUnusedKinds()
+{
+    constexpr std::size_t kFew = 64;
+    if (kinds_.size() <= kFew + kind_.size()) return;
+    std::vector<Index> numbers(kinds_.size(), kNone);
+    std::vector<Kind> used;
+    for (Index& kind : kind_) {
+        Index& number = numbers[kind];
+        if (number == kNone) number = static_cast<Index>(used.size()), used.push_back(kinds_[kind]);
+        kind = number;
+    }
+    kinds_.swap(used);
 }
 
 /// One of the last kinds, where the spring is like it; else a new one.
@@ -141,6 +183,7 @@ void SoftSprings::prepare(const State& state, const StiffnessBounds& bounds, dou
     for (std::vector<double>* scratch : {&stiffness_, &damping_, &load_}) *scratch = std::vector<double>();
     if (plain) return;
     for (Angular& spring : angular_) {
+        if (spring.a == kNone) continue;
         const double share =
             std::min({bounds.share(spring.a, h), bounds.share(spring.centre, h), bounds.share(spring.b, h)});
         spring.stiffness = spring.ks * share;

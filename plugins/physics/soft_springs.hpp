@@ -25,7 +25,8 @@ public:
     Index springCount() const { return static_cast<Index>(a_.size()); }
     Index angularCount() const { return static_cast<Index>(angular_.size()); }
 
-    /// The springs of the world's newest body; `nodeOf`: particle -> node of the world.
+    /// The springs of a new body go where its record says: behind all others, or where those of a removed one were.
+    /// `nodeOf`: particle -> node of the world.
     void add(const State&, const SoftBodyDef&, BodyHandle, std::span<const Index> nodeOf);
 
     /// `loose`: nothing but these springs acts on soft bodies, so their nodes may be weighed.
@@ -79,6 +80,8 @@ public:
     /// The same as forces of the state as it is, for Method::SemiImplicitEuler.
     void addAngularForces(State&);
 
+    void remove(Index body);
+
     bool alive(Index spring) const { return alive_[spring] != 0; }
     /// Springs from a particle to itself never were whole, and never tear.
     bool anyTorn(Index body) const { return tornCount(body) > 0; }
@@ -108,12 +111,12 @@ public:
 
 private:
     struct Angular {
-        Index a, centre, b;
-        double restAngle, ks, kd;
-        double angle;           // unwrapped: continues through ±pi
-        double restCompliance;  // sum of |grad angle|² / m at rest
-        double stiffness = 0;   // ks after softening
-        double damping = 0;     // kd and what softening adds
+        Index a = kNone, centre = kNone, b = kNone;  // kNone: its body was removed
+        double restAngle = 0, ks = 0, kd = 0;
+        double angle = 0;           // unwrapped: continues through ±pi
+        double restCompliance = 0;  // sum of |grad angle|² / m at rest
+        double stiffness = 0;       // ks after softening
+        double damping = 0;         // kd and what softening adds
     };
     struct Corner;
     struct Kind {
@@ -135,7 +138,8 @@ private:
         double provenRate = 0;     // substeps / s that were proven to suffice, besides the bounds; 0: none
     };
 
-    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf);
+    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf, Index place);
+    void dropUnusedKinds();
     double stiffnessOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.ks : kindOf(i).ks; }
     double dampingOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.kd : kindOf(i).kd; }
     /// Length at which the spring tears; 0: never.
@@ -190,7 +194,8 @@ private:
     bool anyTorn_ = false;
     std::vector<Index> torn_;  // [bodies] number of torn springs
     std::vector<Angular> angular_;
-    double crush_ = 0;  // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
+    Index turning_ = 0;  // of them, those of bodies there are
+    double crush_ = 0;   // seconds: crushed springs are damped by so much of their stiffness (soft::kCrushed)
     // Scratch of the body or batch at work; that of preparing is given back.
     std::vector<Vec2> drift_;  // [bodies] units / s, of the substep
     std::vector<Room> rooms_;  // the first serves what is not divided

@@ -144,7 +144,7 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
 {
     for (Index body = 0; body < meshes_.size(); ++body) {
         Mesh& mesh = meshes_[body];
-        const bool weighed = loose && angular_.empty() && isLarge(mesh.nodes);
+        const bool weighed = loose && turning_ == 0 && isLarge(mesh.nodes);
         if (weighed) weigh(bounds, state, mesh);
         addTo(bounds, state, mesh);
         mesh.fastestAtRest = weighed && isVast(mesh.nodes) ? fastestAtRest(bounds, state, mesh, body) : 0;
@@ -157,6 +157,7 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
     }
     for (std::vector<double>* scratch : {&load_, &weight_, &matrix_}) *scratch = std::vector<double>();
     for (const Angular& spring : angular_) {
+        if (spring.a == kNone) continue;
         const double rate = spring.ks * spring.restCompliance;
         for (Index node : {spring.a, spring.centre, spring.b}) bounds.add(node, rate);
     }

@@ -23,6 +23,64 @@ void Nodes::addRigid(double nodeMass)
     rotation.cover(size());
 }
 
+namespace {
+
+/// Moves the last rows to others, and ends the vector before them.
+template <class T>
+void moveLast(std::vector<T>& rows, Range from, Index to)
+{
+    if (rows.size() < from.end()) return;  // it has none of anybody
+    std::copy_n(rows.begin() + from.first, from.count, rows.begin() + to);
+    rows.resize(from.first);
+}
+template <class T>
+void moveLast(Column<T>& rows, Range from, Index to)
+{
+    for (Index i = 0; i < from.count; ++i) rows[to + i] = std::as_const(rows)[from.first + i];
+    rows.cut(from.first);
+}
+
+void moveLast(Walls& walls, Range from, Index to, Index pointsBack)
+{
+    const Index back = from.first - to;
+    for (Index w = from.first; w < from.end(); ++w) {
+        walls.first[w] -= pointsBack, walls.second[w] -= pointsBack;
+        walls.previous[w] -= back, walls.next[w] -= back;
+    }
+    moveLast(walls.first, from, to), moveLast(walls.second, from, to);
+    moveLast(walls.previous, from, to), moveLast(walls.next, from, to);
+    moveLast(walls.outward, from, to), moveLast(walls.firstEnd, from, to), moveLast(walls.secondEnd, from, to);
+}
+
+}  // namespace
+
+void moveNewest(State& state, Index to)
+{
+    BodyRecord body = std::move(state.bodies.back());
+    const auto handle = static_cast<Index>(state.bodies.size() - 1);
+    state.bodies.pop_back();
+    state.setFilter(to, std::as_const(state.filters)[handle]);
+    state.filters.cut(handle);
+    const BodyRecord& place = state.bodies[to];
+    Nodes& nodes = state.nodes;
+    moveLast(nodes.position, body.nodes, place.nodes.first), moveLast(nodes.velocity, body.nodes, place.nodes.first);
+    moveLast(nodes.mass, body.nodes, place.nodes.first), moveLast(nodes.invMass, body.nodes, place.nodes.first);
+    for (Column<double>* column : {&nodes.angle, &nodes.omega, &nodes.invInertia, &nodes.torque})
+        moveLast(*column, body.nodes, place.nodes.first);
+    moveLast(nodes.rotation, body.nodes, place.nodes.first), moveLast(nodes.force, body.nodes, place.nodes.first);
+    Points& points = state.points;
+    for (Index p = body.points.first; p < body.points.end(); ++p)
+        points.node[p] -= body.nodes.first - place.nodes.first;
+    moveLast(points.node, body.points, place.points.first), moveLast(points.local, body.points, place.points.first);
+    moveLast(points.position, body.points, place.points.first);
+    if (!points.normal.empty()) moveLast(points.normal, body.points, place.points.first);
+    moveLast(points.collidable, body.points, place.points.first);
+    moveLast(state.walls, body.walls, place.walls.first, body.points.first - place.points.first);
+    body.nodes.first = place.nodes.first, body.points.first = place.points.first;
+    body.walls.first = place.walls.first;
+    state.bodies[to] = std::move(body);
+}
+
 void fitRoom(State& state)
 {
     Nodes& nodes = state.nodes;
@@ -130,6 +188,11 @@ void readSoft(State& state, Index handle)
 void updateReading(State& state, Index handle)
 {
     const BodyRecord& body = state.bodies[handle];
+    if (body.removed) {
+        state.readings.velocity[handle] = Vec2(0, 0), state.readings.omega[handle] = 0;
+        state.readings.bounds[handle] = Box();
+        return;
+    }
     if (!body.rigid) return readSoft(state, handle);
     readRigid(state, handle);
     Box& bounds = state.readings.bounds[handle];

@@ -118,8 +118,9 @@ struct BodyRecord {
     bool enabled : 1 = true;     // may move, meet and be seen
     bool drives : 1 = false;     // kinematic while it is enabled
     bool fixedRotation : 1 = false;
-    bool asleep : 1 = false;  // rigid: rests, and is left out until something wakes it
-    bool flown : 1 = false;   // soft: nothing else acts on it, and it has been moved for all of the step at hand
+    bool asleep : 1 = false;   // rigid: rests, and is left out until something wakes it
+    bool removed : 1 = false;  // its place is free for another
+    bool flown : 1 = false;    // soft: nothing else acts on it, and it has been moved for all of the step at hand
     Index material = 0;
     std::uint32_t layer = 1;
     Range nodes, points, walls;
@@ -226,6 +227,8 @@ struct State {
     }
 };
 
+/// Moves the newest body, that has no stage yet, to the place of a removed one with ranges as long; its ranges go.
+void moveNewest(State&, Index to);
 /// Gives back the room there is to spare.
 void fitRoom(State&);
 std::size_t bytesOf(const State&);

@@ -54,6 +54,9 @@ public:
     void add(const ForceActuatorDef& def) { addActuator(10U, {&def.at}); }
     void add(const ForceFieldDef& def) { addActuator(11U + static_cast<std::uint32_t>(def.kind), {}); }
 
+    void removeBody(std::uint32_t body) { --tag_.bodies, take(20U, body); }
+    void removeActuator(std::uint32_t kind, std::uint32_t handle) { --tag_.actuators, take(21U + kind, handle); }
+
 private:
     void mix(std::uint64_t word)
     {

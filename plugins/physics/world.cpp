@@ -94,14 +94,11 @@ double typicalLength(const Region& region, const Box& bounds)
 
 BodyHandle World::addSoftBody(const SoftBodyDef& def)
 {
-    const auto handle = static_cast<BodyHandle>(state_.bodies.size());
-    checks().check(handle, def, settings_.materialCount);
+    checks().check(static_cast<BodyHandle>(state_.bodies.size()), def, settings_.materialCount);
     outlineAll();
     BodyRecord& body = newBody(def.common, false);
     body.soft = std::make_unique<SoftRecord>();
     SoftRecord& soft = *body.soft;
-    soft.springs = {springs_.springCount(), static_cast<Index>(def.springs.size())};
-    soft.angularSprings = {springs_.angularCount(), static_cast<Index>(def.angularSprings.size())};
     const auto count = static_cast<Index>(def.particles.size());
     body.nodes.count = body.points.count = count;
     Nodes& nodes = state_.nodes;
@@ -140,21 +137,27 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     body.length = typicalLength(region, bounds);
     soft.restArea = region.area;
     soft.matter = def.matter;
-
     body.wide = soft::fitsContacts(state_, body);
+
+    soft.springs = {springs_.springCount(), static_cast<Index>(def.springs.size())};
+    soft.angularSprings = {springs_.angularCount(), static_cast<Index>(def.angularSprings.size())};
+    const Index firstNode = body.nodes.first;
+    const BodyHandle handle = settleIn(buildOf(static_cast<BodyHandle>(state_.bodies.size() - 1)));
+    BodyRecord& settled = state_.bodies[handle];
+    for (Index& node : nodeOf) node -= firstNode - settled.nodes.first;
     springs_.add(state_, def, handle, nodeOf);
     shapes_.add(state_, def, handle, nodeOf);
     queries_.addSoft(handle);
     structure_.add(def);
-    if (body.kinematic) holdSoft(body, false);  // its springs know it as it is when it is not
-    return finishBody(def.common);
+    if (settled.kinematic) holdSoft(settled, false);  // its springs know it as it is when it is not
+    return finishBody(handle, def.common);
 }
 
 BodyHandle World::addRigidBody(const RigidBodyDef& def)
 {
-    const auto handle = static_cast<BodyHandle>(state_.bodies.size());
-    checks().check(handle, def, settings_.materialCount);
-    const Drawing drawing = takenApart(handle, def);  // may refuse: nothing is changed before
+    const auto next = static_cast<BodyHandle>(state_.bodies.size());
+    checks().check(next, def, settings_.materialCount);
+    const Drawing drawing = takenApart(next, def);  // may refuse: nothing is changed before
     BodyRecord& body = newBody(def.common, true);
     body.nodes.count = 1;
     Nodes& nodes = state_.nodes;
@@ -163,25 +166,26 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     body.single = isSingle(def);
     const std::vector<std::vector<Vec2>> outlines = outlinesOf(def);
     if (!lean_ || !body.single) keepOutline(body, outlines, def.shapes.empty() ? Inside::OddRings : Inside::AnyRing);
-    setRigidMass(handle, def, outlines, drawing);
-    if (body.simple) {
-        body.grid.reset();
+    const BodyHandle handle = setRigidMass(def, outlines, drawing);
+    BodyRecord& settled = state_.bodies[handle];
+    if (settled.simple) {
+        settled.grid.reset();
     } else {
         outlineAll();
-        rebuildGrid(state_, body);
+        rebuildGrid(state_, settled);
         keepNormals();
     }
     queries_.addRigid(state_, handle, def);
     structure_.add(def);
-    return finishBody(def.common);
+    return finishBody(handle, def.common);
 }
 
-/// Puts the node at the centre of mass and makes the points local to it. Borders without area count as equal masses at
-/// their points, so that a degenerate drawing still has a finite centre and moment of inertia.
-void World::setRigidMass(BodyHandle handle, const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines,
-                         const Drawing& drawing)
+/// Puts the node of the newest body at the centre of mass and makes the points local to it. Borders without area count
+/// as equal masses at their points, so that a degenerate drawing still has a finite centre and moment of inertia.
+BodyHandle World::setRigidMass(const RigidBodyDef& def, const std::vector<std::vector<Vec2>>& outlines,
+                               const Drawing& drawing)
 {
-    BodyRecord& body = state_.bodies[handle];
+    BodyRecord& body = state_.bodies.back();
     const Region region = def.shapes.empty() ? measureRegion(state_, body) : measureShapes(def.shapes);
     double points = 0;
     for (const auto& outline : outlines) points += static_cast<double>(outline.size());
@@ -202,12 +206,21 @@ void World::setRigidMass(BodyHandle handle, const RigidBodyDef& def, const std::
     if (!(second > 1e-12 * body.length * body.length)) second = body.length * body.length / 6;
     for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.local[p] -= centre;
 
-    const Index node = body.nodes.first;
-    state_.nodes.position[node] = centre;
+    state_.nodes.position[body.nodes.first] = centre;
     const double gyration = std::sqrt(second);
-    body.simple = rigid_.add(state_, handle, def, drawing, gyration);
-    if (!body.simple) gyrations_.cover(handle + std::size_t{1}), gyrations_[handle] = gyration;
+    const std::vector<DrawnPart> parts = RigidStage::partsOf(def, drawing, centre, body.length);
+    body.simple = !parts.empty();
+    Build build = buildOf(static_cast<BodyHandle>(state_.bodies.size() - 1));
+    build.parts = static_cast<Index>(parts.size());
+    if (body.isLean()) build.points = build.walls = ringSizeOf(parts.front().part);
+    const BodyHandle handle = settleIn(build);
+    if (!parts.empty()) {
+        rigid_.add(state_, handle, def, parts, gyration);
+    } else {
+        gyrations_.cover(handle + std::size_t{1}), gyrations_[handle] = gyration;
+    }
     applyMotion(handle);
+    return handle;
 }
 
 /// What its node is for the solvers, from what the rigid body is.
@@ -238,11 +251,10 @@ void World::extendReadings()
     }
 }
 
-BodyHandle World::finishBody(const BodyCommon& common)
+BodyHandle World::finishBody(BodyHandle handle, const BodyCommon& common)
 {
-    const auto handle = static_cast<BodyHandle>(state_.bodies.size() - 1);
     complex_ += !state_.bodies[handle].simple;
-    if (!lean_) extendReadings();
+    if (!lean_) extendReadings(), state_.readings.angle[handle] = 0;
     rate_ = -1;
     islandsKnown_ = false;
     reread(handle);
@@ -254,6 +266,7 @@ BodyHandle World::finishBody(const BodyCommon& common)
 ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 {
     checks().check(actuators_.springCount(), def, bodyCount());
+    requireBodies({&def.a, &def.b});
     wakeHeld(def.a), wakeHeld(def.b);
     rate_ = -1;
     structure_.add(def);
@@ -263,6 +276,7 @@ ActuatorHandle World::addSpring(const SpringActuatorDef& def)
 ActuatorHandle World::addAngularSpring(const AngularSpringActuatorDef& def)
 {
     checks().check(actuators_.angularSpringCount(), def, bodyCount());
+    requireBodies({&def.a, &def.centre, &def.b});
     wakeHeld(def.a), wakeHeld(def.centre), wakeHeld(def.b);
     rate_ = -1;
     structure_.add(def);
@@ -274,6 +288,7 @@ ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
     const std::string item = named("torque", actuators_.torqueCount());
     checks().check(item, def.at, bodyCount());
     checks().number(item, "value", def.value);
+    requireBodies({&def.at});
     wakeHeld(def.at);
     structure_.add(def);
     return actuators_.add(state_, def);
@@ -293,6 +308,7 @@ ActuatorHandle World::addForce(const ForceActuatorDef& def)
     const std::string item = named("force", actuators_.forceCount());
     checks().check(item, def.at, bodyCount());
     checks().number(item, "value", def.force);
+    requireBodies({&def.at});
     wakeHeld(def.at);
     structure_.add(def);
     return actuators_.add(state_, def);

@@ -9,6 +9,7 @@
 #include "queries.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
+#include "slots.hpp"
 #include "soft/accounts.hpp"
 #include "soft/contacts.hpp"
 #include "soft/joints.hpp"
@@ -19,9 +20,11 @@
 #include "state.hpp"
 #include "structure.hpp"
 
+#include <jet/physics_removal.hpp>
+
 namespace jet::physics {
 
-class World final : public PhysicsWorld {
+class World final : public PhysicsWorld, public WorldRemoval, public LiveAngularSprings {
 public:
     explicit World(const WorldSettings&);
 
@@ -68,6 +71,15 @@ public:
     void setJoint(JointHandle, const JointDef&) override;
     void setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio) override;
 
+    void setAngularSpring(ActuatorHandle, std::optional<double> restAngle, double ks, double kd) override;
+
+    // See world_removal.cpp.
+    void removeBody(BodyHandle) override;
+    void removeActuator(ActuatorKind, ActuatorHandle) override;
+    bool hasBody(BodyHandle) const override;
+    bool hasActuator(ActuatorKind, ActuatorHandle) const override;
+    bool hasJoint(JointHandle) const override;
+
     bool awake(BodyHandle) const override;
     void wake(BodyHandle) override;
     std::uint32_t island(BodyHandle) const override;
@@ -105,8 +117,19 @@ private:
     /// What is told of the body, after it was changed between steps.
     void reread(BodyHandle);
     void extendReadings();
-    BodyHandle finishBody(const BodyCommon&);
-    void setRigidMass(BodyHandle, const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines, const Drawing&);
+    BodyHandle finishBody(BodyHandle, const BodyCommon&);
+    BodyHandle setRigidMass(const RigidBodyDef&, const std::vector<std::vector<Vec2>>& outlines, const Drawing&);
+    // Removal.
+    void requireBody(BodyHandle) const;
+    void requireBodies(std::initializer_list<const Anchor*>) const;
+    void requireActuator(ActuatorKind, ActuatorHandle) const;
+    Index actuatorCount(ActuatorKind) const;
+    Build buildOf(BodyHandle) const;
+    BodyHandle settleIn(const Build&);
+    void removeHolders(BodyHandle);
+    void forgetContacts(BodyHandle);
+    void wakeHeld(ActuatorKind, ActuatorHandle);
+    JointHandle freeJoint(bool soft) const;
     void applyMotion(BodyHandle);
     static bool isHeld(const BodyRecord&);
     void holdSoft(BodyRecord&, bool before);
@@ -121,6 +144,7 @@ private:
         Index index = 0;
     };
     JointAt jointAt(JointHandle) const;
+    bool isRemoved(const JointAt&) const;
     JointState rigidJoint(Index) const;
 
     void wakeHeld(const JointDef&);
@@ -140,7 +164,7 @@ private:
     void flyFree(double h, int count);
     bool isLeftAlone(Index body, double dt);
     /// May there be forces on nodes?
-    bool anyForces() const { return pushed_ || plain_ || actuators_.any() || fields_.count() > 0; }
+    bool anyForces() const { return pushed_ || plain_ || actuators_.any() || fields_.any(); }
     /// Is any of stepForces_ not null?
     bool anyStepForce() const;
     soft::Accounts::Scene accounted(double h);
@@ -158,6 +182,7 @@ private:
     void report();
     void reportContact(const ContactPoint&);
     void rememberTouches();
+    bool isCompared(std::uint64_t pair) const;
     void tellEvents();
     double impulseBetween(std::uint64_t pair) const;
 
@@ -175,6 +200,7 @@ private:
     WorldSettings settings_;
     State state_;
     Structure structure_;
+    Slots slots_;
     SoftSprings springs_;
     ShapeMemory shapes_;
     soft::Twins twins_;
@@ -188,6 +214,7 @@ private:
     soft::Joints softJoints_;
     soft::Accounts accounts_;
     std::vector<JointAt> jointsAt_;
+    bool jointsRemoved_ = false;  // may any of them have been?
     soft::Tears tears_;
     RigidStage rigid_;
     Queries queries_;

@@ -28,13 +28,14 @@ BodyStates World::bodies() const
 bool World::touching(BodyHandle a, BodyHandle b) const
 {
     reportIfAsked();
+    if (!hasBody(a) || !hasBody(b)) return false;
     const std::uint64_t pair = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
     return std::binary_search(touching_.begin(), touching_.end(), pair);
 }
 
 void World::setTorque(ActuatorHandle torque, double value)
 {
-    requireBelow("torque", torque, actuators_.torqueCount());
+    requireActuator(ActuatorKind::Torque, torque);
     checks().number(named("torque", torque), "value", value);
     const Index body = actuators_.bodyOfTorque(torque);
     if (body != kNone && actuators_.torque(torque) != value) rigid_.wake(state_, body);
@@ -43,7 +44,7 @@ void World::setTorque(ActuatorHandle torque, double value)
 
 void World::setForce(ActuatorHandle force, const Vec2& value)
 {
-    requireBelow("force", force, actuators_.forceCount());
+    requireActuator(ActuatorKind::Force, force);
     checks().number(named("force", force), "value", value);
     const Index body = actuators_.bodyOfForce(force);
     if (body != kNone && actuators_.force(force) != value) rigid_.wake(state_, body);
@@ -52,7 +53,7 @@ void World::setForce(ActuatorHandle force, const Vec2& value)
 
 void World::applyForce(BodyHandle handle, const Vec2& force)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().number(named("body", handle), "force", force);
     const BodyRecord& body = state_.bodies[handle];
     if (force == Vec2(0, 0)) return;
@@ -65,7 +66,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
 
 void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().number(named("body", handle), "impulse", impulse);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
@@ -77,7 +78,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
 
 void World::setVelocity(BodyHandle handle, const Vec2& velocity)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().number(named("body", handle), "velocity", velocity);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
@@ -91,7 +92,7 @@ void World::setVelocity(BodyHandle handle, const Vec2& velocity)
 
 void World::setOmega(BodyHandle handle, double omega)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().number(named("body", handle), "turning rate", omega);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
@@ -111,7 +112,7 @@ void World::setOmega(BodyHandle handle, double omega)
 
 void World::setPosition(BodyHandle handle, const Vec2& centre)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().place(named("body", handle), "position", centre);
     reportIfAsked();  // of where things were
     const BodyRecord& body = state_.bodies[handle];
@@ -136,7 +137,7 @@ void World::setGravity(const Vec2& gravity)
 
 bool World::springAlive(BodyHandle handle, std::uint32_t index) const
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     const auto& soft = state_.bodies[handle].soft;
     const Range springs = soft ? soft->springs : Range();
     requireBelow("spring", index, springs.count);
@@ -184,6 +185,7 @@ void World::archive(Self& self, Archive& with)
         with(matter.shapeStiffness), with(matter.shapeDamping), with(body.soft->twinTurn);
     }
     self.archivePins(with);
+    self.slots_.archive(with);
     with.list(self.stepForces_.values(), [&](Vec2& force) { with(force); });
     with(self.settings_.gravity), with(self.impulsesOf_), with(self.pairsOf_);
     with.list(self.contacts_.points, [&](ContactPoint& c) {
@@ -297,6 +299,7 @@ void World::restore(std::span<const std::byte> bytes)
         throw;
     }
     rigid_.rebuild();
+    jointsRemoved_ = true;  // what was restored may have some
     finder_.exclude(softJoints_.excluded());
     queries_.outdate();
     rate_ = -1;

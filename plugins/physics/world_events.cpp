@@ -16,6 +16,12 @@ BodyHandle higher(std::uint64_t pair) { return static_cast<BodyHandle>(pair & 0x
 
 }  // namespace
 
+/// Is it told by comparing? Else the rigid stage has events for it.
+bool World::isCompared(std::uint64_t pair) const
+{
+    return !state_.bodies[lower(pair)].simple || !state_.bodies[higher(pair)].simple;
+}
+
 /// Before a step: what touched until now.
 void World::rememberTouches()
 {
@@ -23,11 +29,14 @@ void World::rememberTouches()
     if (!watched_) return;
     reportIfAsked();
     touchedBefore_ = touching_;
+    // The last body that is not simple may have been removed: then the step tells the end of its touches.
+    const auto isCompared = [&](std::uint64_t pair) { return this->isCompared(pair); };
+    watched_ = complex_ > 0 || std::any_of(touching_.begin(), touching_.end(), isCompared);
 }
 
 std::span<const ContactEvent> World::contactEvents() const
 {
-    if (complex_ == 0) return rigid_.events();
+    if (complex_ == 0 && !watched_) return rigid_.events();
     auto& self = const_cast<World&>(*this);  // a cache of what the last step left
     self.watched_ = true;
     reportIfAsked();
@@ -40,9 +49,7 @@ void World::tellEvents()
     eventsTold_ = true;
     const std::span<const ContactEvent> own = rigid_.events();
     events_.assign(own.begin(), own.end());
-    const auto counts = [&](std::uint64_t pair) {
-        return !state_.bodies[lower(pair)].simple || !state_.bodies[higher(pair)].simple;
-    };
+    const auto counts = [&](std::uint64_t pair) { return isCompared(pair); };
     auto before = touchedBefore_.begin();
     for (const std::uint64_t pair : touching_) {
         for (; before != touchedBefore_.end() && *before < pair; ++before)

@@ -10,7 +10,7 @@ namespace jet::physics {
 /// Before the first of `count` substeps of h, when it is known what may meet within them.
 void World::flyFree(double h, int count)
 {
-    if (count < 2 || plain_ || actuators_.any() || fields_.count() > 0 || (pushed_ && anyStepForce())) return;
+    if (count < 2 || plain_ || actuators_.any() || fields_.any() || (pushed_ && anyStepForce())) return;
     for (Index handle = 0; handle < state_.bodies.size(); ++handle) {
         BodyRecord& body = state_.bodies[handle];
         if (!springs_.mayFly(handle) || !isLeftAlone(handle, h * count)) continue;

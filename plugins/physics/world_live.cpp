@@ -64,7 +64,7 @@ void World::setSettings(const WorldSettings& wanted)
 
 void World::setMass(BodyHandle handle, double mass)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().checkMass(handle, mass);
     BodyRecord& body = state_.bodies[handle];
     const double before = state_.massOf(body);
@@ -86,7 +86,7 @@ void World::setMass(BodyHandle handle, double mass)
 
 void World::setBody(BodyHandle handle, const BodyCommon& common)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     checks().check(handle, common, settings_.materialCount);
     BodyRecord& body = state_.bodies[handle];
     if (common.fixed != body.fixed)
@@ -120,7 +120,7 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
 
 void World::setEnabled(BodyHandle handle, bool enabled)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     BodyRecord& body = state_.bodies[handle];
     if (body.enabled == enabled) return;
     reportIfAsked();  // of what it was
@@ -181,16 +181,25 @@ void World::setJoint(JointHandle handle, const JointDef& def)
 
 void World::setSpring(ActuatorHandle spring, double restLength, double ks, double kd, double tearRatio)
 {
-    requireBelow("spring", spring, actuators_.springCount());
+    requireActuator(ActuatorKind::Spring, spring);
     const std::string item = named("spring", spring);
     checks().number(item, "rest length", restLength);
     checks().spring(item, ks, kd, tearRatio);
     if (actuators_.isSet(spring, restLength, ks, kd, tearRatio)) return;
-    actuators_.visitSpring(spring, [&](Index a, Index b) {
-        for (const Index body : {a, b})
-            if (body != kNone) rigid_.wake(state_, body);
-    });
+    wakeHeld(ActuatorKind::Spring, spring);
     actuators_.setSpring(spring, restLength, ks, kd, tearRatio);
+    rate_ = -1;
+}
+
+void World::setAngularSpring(ActuatorHandle spring, std::optional<double> restAngle, double ks, double kd)
+{
+    requireActuator(ActuatorKind::AngularSpring, spring);
+    const std::string item = named("angular spring", spring);
+    if (restAngle) checks().number(item, "rest angle", *restAngle);
+    checks().spring(item, ks, kd);
+    if (actuators_.isSet(spring, restAngle, ks, kd)) return;
+    wakeHeld(ActuatorKind::AngularSpring, spring);
+    actuators_.setAngularSpring(spring, restAngle, ks, kd);
     rate_ = -1;
 }
 

@@ -92,6 +92,10 @@ void World::tellOutlines()
 
 void World::tellOutline(Index handle)
 {
+    if (state_.bodies[handle].removed) {
+        toldBounds_[handle] = Box();
+        return;
+    }
     Vec2* points = toldPoints_.data() + state_.readings.firstPoint[handle];
     Box bounds;
     eachPoint(handle, [&](Index i, const Vec2& at) {

@@ -42,7 +42,7 @@ std::optional<CastHit> World::nearest(const Vec2& point, double reach, const Que
 
 bool World::contains(BodyHandle handle, const Vec2& point) const
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     if (!isFinite(point)) return false;
     refresh();
     return queries_.contains(state_, handle, point);

@@ -9,13 +9,13 @@ namespace jet::physics {
 
 bool World::awake(BodyHandle body) const
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     return !state_.bodies[body].asleep;
 }
 
 void World::wake(BodyHandle body)
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     rigid_.wake(state_, body);
 }
 
@@ -103,7 +103,7 @@ const std::vector<Index>& World::islands() const
 
 std::uint32_t World::island(BodyHandle body) const
 {
-    requireBelow("body", body, bodyCount());
+    requireBody(body);
     return islands()[body] == kNone ? kNoHandle : islands()[body];
 }
 

@@ -11,7 +11,7 @@ bool World::onlySimple() const { return complex_ == 0 && !rigid_.empty() && !act
 void World::stepSimple(double dt)
 {
     // Without forces nothing of this is touched: threads have the nodes in their caches.
-    const bool pushed = pushed_ || actuators_.any() || fields_.count() > 0;
+    const bool pushed = pushed_ || actuators_.any() || fields_.any();
     if (pushed) state_.nodes.coverForces();
     std::vector<Vec2>& force = state_.nodes.force.values();
     std::vector<double>& torque = state_.nodes.torque.values();
@@ -19,7 +19,7 @@ void World::stepSimple(double dt)
         for (Index n = 0; n < force.size(); ++n) force[n] = std::as_const(stepForces_)[n];
         std::fill(torque.begin(), torque.end(), 0.0);
         if (actuators_.any()) actuators_.addForces(state_);
-        if (fields_.count() > 0)
+        if (fields_.any())
             fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), dt);
     }
     rigid_.step(state_, settings_, dt, stats_);
@@ -89,18 +89,22 @@ StepStats World::stats() const
 
 JointHandle World::addJoint(const JointDef& def)
 {
-    const auto handle = static_cast<JointHandle>(jointsAt_.size());
-    checks().checkAnchors(handle, def, bodyCount());
-    checks().check(handle, def);
+    const auto next = static_cast<JointHandle>(jointsAt_.size());
+    checks().checkAnchors(next, def, bodyCount());
+    checks().check(next, def);
+    requireBodies({&def.a, &def.b});
     bool soft = false;
     for (const Anchor* anchor : {&def.a, &def.b})
         soft |= anchor->body != kNoHandle && !state_.bodies[anchor->body].rigid;
     for (const Anchor* anchor : {&def.a, &def.b})
         if (anchor->body != kNoHandle && !soft && !rigid_.has(anchor->body))
-            checks().fail("joint " + std::to_string(handle) + ": body " + std::to_string(anchor->body) +
+            checks().fail("joint " + std::to_string(next) + ": body " + std::to_string(anchor->body) +
                           " has no simple rigid shape; joints hold those, soft bodies and the background. Give it "
                           "shapes, or use a spring between bodies.");
-    jointsAt_.push_back({soft, soft ? softJoints_.add(state_, def) : rigid_.addJoint(state_, def)});
+    const JointHandle handle = freeJoint(soft);
+    const Index place = handle == next ? kNone : jointsAt_[handle].index;
+    const Index index = soft ? softJoints_.add(state_, def, place) : rigid_.addJoint(state_, def, place);
+    if (handle == next) jointsAt_.push_back({soft, index});
     wakeHeld(def);
     if (soft) finder_.exclude(softJoints_.excluded());
     structure_.add(def);
@@ -110,6 +114,7 @@ JointHandle World::addJoint(const JointDef& def)
 World::JointAt World::jointAt(JointHandle handle) const
 {
     requireBelow("joint", handle, jointsAt_.size());
+    if (isRemoved(jointsAt_[handle])) checks().fail(named("joint", handle) + " was removed.");
     return jointsAt_[handle];
 }
 
@@ -169,7 +174,9 @@ void World::setJointTarget(JointHandle handle, const Vec2& target)
 void World::removeJoint(JointHandle handle)
 {
     const JointAt at = jointAt(handle);
+    jointsRemoved_ = true;
     if (at.soft) {
+        wakeHeld(softJoints_.def(at.index));
         softJoints_.remove(at.index);
         finder_.exclude(softJoints_.excluded());
         return;

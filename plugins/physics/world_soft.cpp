@@ -18,7 +18,7 @@ namespace {
 
 void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
 {
-    requireBelow("force field", field, fields_.count());
+    requireActuator(ActuatorKind::ForceField, field);
     checks().check(field, def);
     if (fields_.isSet(field, def)) return;
     fields_.set(field, def);
@@ -27,7 +27,7 @@ void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
 
 BodyRecord& World::softBody(BodyHandle handle)
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     if (state_.bodies[handle].rigid) failNotSoft(handle);
     return state_.bodies[handle];
 }
@@ -115,7 +115,7 @@ void World::setPinned(BodyHandle handle, std::uint32_t particle, bool pinned)
 
 double World::springTension(BodyHandle handle, std::uint32_t index) const
 {
-    requireBelow("body", handle, bodyCount());
+    requireBody(handle);
     if (state_.bodies[handle].rigid) failNotSoft(handle);
     const Range& springs = state_.bodies[handle].soft->springs;
     requireBelow("spring", index, springs.count);

@@ -64,6 +64,7 @@ void World::step(double dt)
     checks().within("the step", "its time", dt, 0, kLongestStep);
     if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), told_ = 0;
     rememberTouches();
+    slots_.release();
     heedMaterials();
     if (skipStep()) return;
     told_ = 0;
@@ -89,7 +90,7 @@ void World::stepPart(double dt)
     wholes_.gather(state_);
     prepareStiffness();
     const bool plain = settings_.method == Method::SemiImplicitEuler;
-    const int least = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size());
+    const int least = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size() - slots_.nodes());
     const int count = plain ? 1 : calmed(least, dt, wideSwings_);
     stats_.substeps = static_cast<std::uint32_t>(count);
     const double h = dt / count;
@@ -198,7 +199,7 @@ void World::substep(double h, int index, int count)
         if (pushed || springs_.anyOneByOne()) state_.nodes.coverForces();
         for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force[n] += stepForces_[n];
         actuators_.addForces(state_);
-        if (fields_.count() > 0)
+        if (fields_.any())
             fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);
         if (accounts && pushed) accounts_.force(accounted(h));
         springs_.addForces(state_);
@@ -258,7 +259,7 @@ void World::report()
     touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
     stats_.contacts = static_cast<std::uint32_t>(reports_.size());
     stats_.awakeBodies = 0;
-    for (const BodyRecord& body : state_.bodies) stats_.awakeBodies += !body.fixed && !body.asleep;
+    for (const BodyRecord& body : state_.bodies) stats_.awakeBodies += !body.fixed && !body.asleep && !body.removed;
 }
 
 /// What pushed in this step is told, and what lies on or in a wall without pushing (sensors; collisions not resolved).

@@ -1,11 +1,13 @@
 // A world that passes every call on to another one: base of those that look at what is added.
 #pragma once
 
-#include <jet/physics.hpp>
+#include <jet/physics_removal.hpp>
+
+#include <utility>
 
 namespace jet {
 
-class ForwardingWorld : public PhysicsWorld {
+class ForwardingWorld : public PhysicsWorld, public WorldRemoval, public LiveAngularSprings {
 public:
     explicit ForwardingWorld(PhysicsWorld& world) : world_(world) {}
 
@@ -92,6 +94,22 @@ public:
     void setJointTarget(JointHandle joint, const Vec2& target) override { world_.setJointTarget(joint, target); }
     void removeJoint(JointHandle joint) override { world_.removeJoint(joint); }
     void wake(BodyHandle body) override { world_.wake(body); }
+
+    void removeBody(BodyHandle body) override { removal(world_).removeBody(body); }
+    void removeActuator(ActuatorKind kind, ActuatorHandle actuator) override
+    {
+        removal(world_).removeActuator(kind, actuator);
+    }
+    bool hasBody(BodyHandle body) const override { return removal(std::as_const(world_)).hasBody(body); }
+    bool hasActuator(ActuatorKind kind, ActuatorHandle actuator) const override
+    {
+        return removal(std::as_const(world_)).hasActuator(kind, actuator);
+    }
+    bool hasJoint(JointHandle joint) const override { return removal(std::as_const(world_)).hasJoint(joint); }
+    void setAngularSpring(ActuatorHandle spring, std::optional<double> restAngle, double ks, double kd) override
+    {
+        liveAngularSprings(world_).setAngularSpring(spring, restAngle, ks, kd);
+    }
 
 protected:
     PhysicsWorld& world_;

@@ -1,5 +1,7 @@
 #include "item_parts.hpp"
 
+#include <cmath>
+
 namespace jet {
 
 std::uint32_t RecordingWorld::keep(ItemPart::Def def, std::uint32_t handle)
@@ -31,11 +33,19 @@ void change(PhysicsWorld& world, std::uint32_t handle, const SpringActuatorDef& 
     world.setSpring(handle, rest, def.ks, def.kd, def.tearRatio);
 }
 
-void change(PhysicsWorld&, std::uint32_t, const AngularSpringActuatorDef& before, const AngularSpringActuatorDef& def)
+double drawn(const Anchor& a, const Anchor& centre, const Anchor& b)
 {
-    if (def.ks != before.ks || def.kd != before.kd || def.restFromPose != before.restFromPose ||
-        def.restAngle != before.restAngle)
-        refuse("angular springs stay as they are");
+    const Vec2 armA = a.point - centre.point, armB = b.point - centre.point;
+    return std::atan2(cross(armA, armB), armA.dot(armB));
+}
+
+void change(PhysicsWorld& world, std::uint32_t handle, const AngularSpringActuatorDef& before,
+            const AngularSpringActuatorDef& def)
+{
+    std::optional<double> rest;  // as it is
+    if (!def.restFromPose && (before.restFromPose || def.restAngle != before.restAngle)) rest = def.restAngle;
+    if (def.restFromPose && !before.restFromPose) rest = drawn(before.a, before.centre, before.b);
+    liveAngularSprings(world).setAngularSpring(handle, rest, def.ks, def.kd);
 }
 
 void change(PhysicsWorld& world, std::uint32_t handle, const TorqueActuatorDef&, const TorqueActuatorDef& def)

@@ -1,10 +1,13 @@
 #include <jet/physics.hpp>
+#include <jet/physics_removal.hpp>
 #include <jet/result.hpp>
 
 namespace jet {
 
 PhysicsWorld::~PhysicsWorld() = default;
 PhysicsEngine::~PhysicsEngine() = default;
+WorldRemoval::~WorldRemoval() = default;
+LiveAngularSprings::~LiveAngularSprings() = default;
 
 namespace {
 
@@ -50,6 +53,20 @@ std::vector<BodyHandle> PhysicsWorld::overlapping(const Box&, const QueryFilter&
 std::optional<CastHit> PhysicsWorld::nearest(const Vec2&, double, const QueryFilter&) const
 {
     refuse("queries of what is where");
+}
+
+WorldRemoval& removal(PhysicsWorld& world)
+{
+    if (auto* able = dynamic_cast<WorldRemoval*>(&world)) return *able;
+    refuse("way to take bodies and actuators out of a world that runs");
+}
+
+const WorldRemoval& removal(const PhysicsWorld& world) { return removal(const_cast<PhysicsWorld&>(world)); }
+
+LiveAngularSprings& liveAngularSprings(PhysicsWorld& world)
+{
+    if (auto* able = dynamic_cast<LiveAngularSprings*>(&world)) return *able;
+    refuse("angular springs that change while it runs");
 }
 
 }  // namespace jet

@@ -24,6 +24,7 @@
 #include <jet/path_operations.hpp>
 #include <jet/physics.hpp>
 #include <jet/physics_checks.hpp>
+#include <jet/physics_removal.hpp>
 #include <jet/physics_soft.hpp>
 #include <jet/physics_view.hpp>
 #include <jet/plugin.hpp>
@@ -189,6 +190,9 @@ TYPE(jet::StepStats)
 TYPE(jet::PhysicsWorld)
 TYPE(jet::PhysicsEngine)
 TYPE(jet::PhysicsChecks)
+TYPE(jet::ActuatorKind)
+TYPE(jet::WorldRemoval)
+TYPE(jet::LiveAngularSprings)
 TYPE(jet::SoftMatter)
 TYPE(jet::ForceFieldDef)
 TYPE(jet::PhysicsMarks)

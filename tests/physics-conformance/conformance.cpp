@@ -96,8 +96,8 @@ std::vector<Row> runAll(const Lab& lab, const Options& options)
 {
     Bounds own = readBounds(options.bounds);
     std::vector<Row> rows;
-    for (const auto& checks :
-         {motionChecks(), contactChecks(), changeChecks(), jointChecks(), softChecks(), queryChecks(), stateChecks()})
+    for (const auto& checks : {motionChecks(), contactChecks(), changeChecks(), removalChecks(), jointChecks(),
+                               softChecks(), queryChecks(), stateChecks()})
         for (const Check& check : checks) {
             const std::string name = check.group + ": " + check.name;
             const Bounds::node_type tighter = own.extract(name);

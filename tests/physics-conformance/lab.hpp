@@ -68,6 +68,7 @@ struct Check {
 std::vector<Check> motionChecks();
 std::vector<Check> contactChecks();
 std::vector<Check> changeChecks();
+std::vector<Check> removalChecks();
 std::vector<Check> jointChecks();
 std::vector<Check> queryChecks();
 std::vector<Check> stateChecks();

@@ -39,12 +39,42 @@ void Collider::addPart(Part part, const PartOutline* outline)
     rearranged_ = true;
     RigidBody& body = bodies_.back();
     part.body = static_cast<Index>(bodies_.size() - 1);
+    cover(body, part);
+    makeRoom(1, parts_);
+    parts_.push_back(part);
+    typical_ = 0;
+}
+
+/// The body has one part more.
+void Collider::cover(RigidBody& body, const Part& part)
+{
     body.length = body.partCount == 0 ? part.length : std::max(body.length, part.length);
     body.finest = body.partCount == 0 ? part.length : std::min(body.finest, part.length);
     body.reach = std::max(body.reach, part.reach);
     ++body.partCount;
-    makeRoom(1, parts_);
-    parts_.push_back(part);
+}
+
+void Collider::replaceBody(Index index, const RigidBody& body, const Rules& rules)
+{
+    RigidBody& own = bodies_[index];
+    const Index row = own.rules, firstPart = own.firstPart;
+    own = body;
+    own.firstPart = firstPart, own.rules = row;
+    setRules(own, rules);
+    if (index < poses_.size()) poses_[index] = Pose(), fitted_[index] = Fitting(), way_[index] = 0;
+    disturbed_ = true;
+    rearranged_ |= !body.moves && !body.kinematic;
+}
+
+void Collider::replacePart(Index body, Index which, Part part, const PartOutline* outline)
+{
+    const Index index = bodies_[body].firstPart + which;
+    part.body = body;
+    cover(bodies_[body], part);
+    parts_[index] = part;
+    rearranged_ |= weld_.replace(index, outline);
+    sweep_.forget(index);
+    replaced_.push_back(index);
     typical_ = 0;
 }
 
@@ -119,7 +149,7 @@ void Collider::find(const State& state, const WorldSettings& settings, double dt
             return;
         }
         noteDrift(body);
-        if (fitBoxes(body, dt)) left.raise();
+        if (bodies_[body].enabled && fitBoxes(body, dt)) left.raise();
     };
     // Both threads have read all poses since.
     domains.eachBody(pool, take, [&](Index body, Index) { prefetchToWrite(&poses_[body]); });
@@ -139,14 +169,24 @@ void Collider::measure()
     typical_ = lengths[lengths.size() / 2];
 }
 
+/// The sweep is to know the parts as they are.
 void Collider::prepareSweep()
 {
     if (typical_ == 0 && !parts_.empty()) measure();
-    sweep_.resize(parts_.size(), typical_);
-    for (Index part = 0; part < parts_.size(); ++part) {
+    const auto tell = [&](Index part) {
         sweep_.setReach(part, parts_[part].reach);
-        if (isLong(parts_[part])) sweep_.setLong(part);
+        const bool wasLong = sweep_.piecesOf(part) != nullptr;
+        sweep_.setLong(part, isLong(parts_[part]));
+        // What smaller parts came to, or larger, has other boxes now.
+        if (wasLong != (sweep_.piecesOf(part) != nullptr)) seekAgain(parts_[part].body);
+    };
+    if (sweep_.parts() != parts_.size() || (!replaced_.empty() && sweep_.typical() != typical_)) {
+        sweep_.resize(parts_.size(), typical_);
+        for (Index part = 0; part < parts_.size(); ++part) tell(part);
+    } else {
+        for (const Index part : replaced_) tell(part);
     }
+    replaced_.clear();
 }
 
 void Collider::prepareBodies(Arena& arena)
@@ -159,7 +199,7 @@ void Collider::prepareBodies(Arena& arena)
     looks_ = arena.mark();
     drift_ = arena.take<float>(count), reached_ = arena.take<double>(count);
     drift_[0] = 0, reached_[0] = 0;
-    if (sweep_.parts() != parts_.size()) prepareSweep();
+    prepareSweep();
     sweep_.open(arena);
     surprised_ = false;
     fast_.lower();

@@ -26,6 +26,10 @@ public:
     Index addBody(const RigidBody&, const Rules&);
     void addPart(Part, const PartOutline* = nullptr);
 
+    /// Another body in place of a removed one with as many parts; all its parts follow.
+    void replaceBody(Index, const RigidBody&, const Rules&);
+    void replacePart(Index body, Index which, Part, const PartOutline* = nullptr);
+
     /// Two bodies that shall not collide, because a joint holds them.
     void exclude(Index a, Index b) { excluded_.insert(bodyKey(a, b)); }
     void include(Index a, Index b) { excluded_.erase(bodyKey(a, b)); }
@@ -148,7 +152,7 @@ public:
     template <class Archive>
     void archive(Archive& with)
     {
-        if (sweep_.parts() != parts_.size()) prepareSweep();
+        prepareSweep();
         with.list(contacts_, [&](RigidContact& c) { with(c); });
         with.list(places_, [&](Place& p) { with(p); });
         with.list(free_, [&](Index& i) { with(i); });
@@ -170,6 +174,7 @@ private:
     {
         return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
     }
+    static void cover(RigidBody&, const Part&);
     void measure();
     void prepareBodies(Arena&);
     bool takePose(Index body, const State&, float fall, double dt);
@@ -271,8 +276,9 @@ private:
     RuleBook rules_;
     std::vector<Part> parts_;
     Weld weld_;
-    bool rearranged_ = true;  // has something that stands come, gone or been moved?
-    bool welded_ = false;     // are the outlines those of where bodies stand?
+    std::vector<Index> replaced_;  // parts that the sweep knows as they were
+    bool rearranged_ = true;       // has something that stands come, gone or been moved?
+    bool welded_ = false;          // are the outlines those of where bodies stand?
     std::vector<Pose> poses_;
     std::vector<Fitting> fitted_;
     // Of the step, in the arena; all but the first until endLooks().

@@ -45,11 +45,38 @@ void RigidStage::enable(const State& state, Index handle, bool enabled)
     const Index index = bodyOf(handle);
     forgetContacts(index);
     RigidBody& body = collider_.bodies()[index];
+    const auto stands = [&] { return body.enabled && !body.moves && !body.kinematic; };
+    const bool stood = stands();
     body.enabled = enabled;
     ++jointsVersion_;
     body.moves = state.nodes.invMass[body.node] > 0;
     body.kinematic = state.bodies[handle].kinematic;
-    changed(index);
+    collider_.seekAgain(index);
+    if (stood || stands()) collider_.rearrange();
+    countMovers();
+}
+
+void RigidStage::remove(const State&, Index handle)
+{
+    const Index index = bodyOf(handle);
+    RigidBody& body = collider_.bodies()[index];
+    body.sensor = false, body.mayRest = true, body.looks = 0;
+    collider_.setRules(body, Rules());
+    ++removed_;
+    countMovers();
+}
+
+/// One takes over the place of a removed one with as many parts, of whom nothing stays.
+void RigidStage::replace(Index index, const RigidBody& body, const Rules& rules, const std::vector<DrawnPart>& parts)
+{
+    collider_.replaceBody(index, body, rules);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        collider_.replacePart(index, static_cast<Index>(i), parts[i].part,
+                              parts[i].outlined ? &parts[i].outline : nullptr);
+    if (index < watches_.size()) watches_[index] = Watch();
+    if (index < group_.size()) group_[index] = kNone;
+    ++jointsVersion_;
+    countMovers();
 }
 
 void RigidStage::setMotor(Index index, bool driven, double speed)

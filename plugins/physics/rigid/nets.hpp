@@ -44,6 +44,12 @@ public:
     template <class Real>
     void restrain(const Step<Real>&);
 
+    /// Another joint has this number now.
+    void forget(Index joint)
+    {
+        std::erase_if(ledgers_, [joint](const Ledger& ledger) { return ledger.joint == joint; });
+    }
+
     template <class Archive>
     void archive(Archive& with)
     {

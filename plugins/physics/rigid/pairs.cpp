@@ -104,8 +104,16 @@ void PairSweep::resize(std::size_t parts, float typical)
     now_.lay(room_);
 }
 
-void PairSweep::setLong(Index part)
+void PairSweep::setLong(Index part, bool isLong)
 {
+    if (!isLong) {
+        const Index piece = pieceOf(part);
+        if (piece == 0) return;
+        pieces_[piece].swap(pieces_.back()), long_[piece] = long_.back();
+        pieceOf_[long_[piece]] = piece, pieceOf_[part] = 0;
+        pieces_.pop_back(), long_.pop_back();
+        return;
+    }
     pieceOf_.resize(boxes_.size(), 0);
     if (pieceOf_[part] != 0) return;
     pieceOf_[part] = static_cast<Index>(pieces_.size());

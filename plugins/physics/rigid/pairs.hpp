@@ -60,8 +60,9 @@ public:
     {
         return reaches_[a] > kLonger * reaches_[b] || reaches_[b] > kLonger * reaches_[a];
     }
+    float typical() const { return typical_; }
     /// A long part: its box is large, but only what meets one of these pieces of it is met.
-    void setLong(Index part);
+    void setLong(Index part, bool isLong = true);
     std::vector<FatBox>* piecesOf(Index part) { return pieceOf(part) == 0 ? nullptr : &pieces_[pieceOf_[part]]; }
     void noteMoves() { anyMoved_ = true; }
     bool anyMoved() const { return anyMoved_; }

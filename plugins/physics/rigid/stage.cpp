@@ -48,8 +48,10 @@ DrawnAs drawnAs(const BodyCommon& common)
     return common.fixed ? DrawnAs::Walls : DrawnAs::Solid;
 }
 
-/// About the centre of mass.
-std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Drawing& drawing, const Vec2& centre, double length)
+}  // namespace
+
+std::vector<DrawnPart> RigidStage::partsOf(const RigidBodyDef& def, const Drawing& drawing, const Vec2& centre,
+                                           double length)
 {
     std::vector<DrawnPart> parts;
     if (!def.borders.empty()) parts = drawnParts(drawing, centre, length);
@@ -66,30 +68,29 @@ std::vector<DrawnPart> partsOf(const RigidBodyDef& def, const Drawing& drawing, 
     return parts;
 }
 
-}  // namespace
-
 Drawing RigidStage::takeApart(const RigidBodyDef& def)
 {
     return def.borders.empty() ? Drawing() : physics::takeApart(def.borders, drawnAs(def.common));
 }
 
-bool RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, const Drawing& drawing, double gyration)
+void RigidStage::add(const State& state, Index handle, const RigidBodyDef& def, const std::vector<DrawnPart>& parts,
+                     double gyration)
 {
-    const Index node = state.bodies[handle].nodes.first;
     RigidBody body;
-    body.node = node, body.handle = handle;
+    body.node = state.bodies[handle].nodes.first, body.handle = handle;
     body.moves = !def.common.fixed && !def.common.kinematic;
     body.kinematic = def.common.kinematic && !def.common.fixed, body.sensor = def.common.sensor;
     body.mayRest = def.common.allowSleep;
     body.gyration = gyration;
-    const std::vector<DrawnPart> drawn = partsOf(def, drawing, state.nodes.position[node], state.bodies[handle].length);
-    if (drawn.empty()) return false;
+    if (has(handle)) {
+        --removed_;
+        return replace(bodyOf(handle), body, Rules(def.common), parts);
+    }
     const Index index = collider_.addBody(body, Rules(def.common));
     keepBodyOf(handle, index);
     movers_ += body.moves;
     if (body.kinematic) kinematic_.push_back(index);
-    for (const DrawnPart& part : drawn) collider_.addPart(part.part, part.outlined ? &part.outline : nullptr);
-    return true;
+    for (const DrawnPart& part : parts) collider_.addPart(part.part, part.outlined ? &part.outline : nullptr);
 }
 
 void RigidStage::keepBodyOf(Index handle, Index body)
@@ -103,7 +104,7 @@ void RigidStage::keepBodyOf(Index handle, Index body)
     bodyOf_[handle - ownHandles_] = body;
 }
 
-Index RigidStage::addJoint(const State& state, const JointDef& def)
+Index RigidStage::addJoint(const State& state, const JointDef& def, Index place)
 {
     Joint joint;
     joint.def = def;
@@ -126,10 +127,18 @@ Index RigidStage::addJoint(const State& state, const JointDef& def)
     } else if (def.length < 0) {
         joint.length = (def.b.point - def.a.point).norm();
     }
-    joints_.push_back(joint);
+    if (place == kNone) {
+        place = static_cast<Index>(joints_.size());
+        joints_.push_back(joint);
+    } else {
+        // The solver's impulses are those of who was there.
+        single_.releaseJoints(joints_), double_.releaseJoints(joints_);
+        nets_.forget(place);
+        joints_[place] = joint;
+    }
     ++jointsVersion_;
     if (joint.keepsApart()) decideMeeting(joint);
-    return static_cast<Index>(joints_.size() - 1);
+    return place;
 }
 
 void RigidStage::setJoint(const State& state, Index index, const JointDef& wanted)

@@ -23,8 +23,12 @@ class RigidStage {
 public:
     /// The body's borders; fails with a sentence where they are too intricate.
     static Drawing takeApart(const RigidBodyDef&);
-    /// Takes the body if its outline is simple; its node is where it shall be. Says whether it did.
-    bool add(const State&, Index handle, const RigidBodyDef&, const Drawing&, double gyration);
+    /// About the centre of mass; none: the outline is not simple.
+    static std::vector<DrawnPart> partsOf(const RigidBodyDef&, const Drawing&, const Vec2& centre, double length);
+    /// Its node is where it shall be. Where the handle was that of a removed body, that one had as many parts.
+    void add(const State&, Index handle, const RigidBodyDef&, const std::vector<DrawnPart>&, double gyration);
+    /// One that has been switched off.
+    void remove(const State&, Index handle);
     /// Its radius, units.
     double gyrationOf(Index handle) const { return collider_.bodies()[bodyOf(handle)].gyration; }
     /// Of a body that has no other.
@@ -35,10 +39,11 @@ public:
         return std::span(collider_.parts()).subspan(body.firstPart, body.partCount);
     }
     bool has(Index handle) const { return bodyOf(handle) != 0; }
-    std::size_t count() const { return collider_.bodies().size() - 1; }
+    std::size_t count() const { return collider_.bodies().size() - 1 - removed_; }
     bool empty() const { return count() == 0; }
 
-    Index addJoint(const State&, const JointDef&);
+    /// `place`: of a removed joint, that it takes over.
+    Index addJoint(const State&, const JointDef&, Index place = kNone);
     const Joint& joint(Index index) const { return joints_[index]; }
     /// Of the last step.
     const JointState& stateOf(Index joint)
@@ -191,6 +196,7 @@ private:
     bool haveOnlyPair(Index a, Index b) const;
     void recountTouches();
     void part(const RigidContact&);
+    void replace(Index removed, const RigidBody&, const Rules&, const std::vector<DrawnPart>&);
     void forgetContacts(Index body);
     void forgetContactsIf(const std::function<bool(const RigidContact&)>&);
     void decideMeeting(const Joint&);
@@ -245,6 +251,7 @@ private:
     bool drowsy_ = false;         // has one fallen asleep after the last step?
     bool woke_ = false;           // has a body woken since contacts were last looked at?
     Index movers_ = 0;
+    std::size_t removed_ = 0;       // bodies
     std::vector<Index> kinematic_;  // bodies
 };
 

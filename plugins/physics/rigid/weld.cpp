@@ -183,6 +183,25 @@ void Weld::add(const PartOutline* outline)
     own_.push_back(*outline);
 }
 
+bool Weld::replace(std::size_t part, const PartOutline* outline)
+{
+    const std::uint32_t before = std::as_const(ownOf_)[part];
+    if (before != kNoOutline && outline == nullptr) free_.push_back(before), ownOf_[part] = kNoOutline;
+    if (outline == nullptr) return before != kNoOutline;
+    std::uint32_t row = before;
+    if (row == kNoOutline && free_.empty()) {
+        row = static_cast<std::uint32_t>(own_.size());
+        own_.emplace_back();
+    } else if (row == kNoOutline) {
+        row = free_.back();
+        free_.pop_back();
+    }
+    own_[row] = *outline;
+    ownOf_.cover(part + 1);
+    ownOf_[part] = row;
+    return true;
+}
+
 void Weld::run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const RuleBook& rules,
                const State& state, float typicalLength)
 {

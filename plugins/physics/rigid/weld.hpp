@@ -15,6 +15,8 @@ class Weld {
 public:
     /// The outline a part has by itself, or none; one call a part, in their order.
     void add(const PartOutline*);
+    /// Another part is in the place of a removed one. Has either an outline?
+    bool replace(std::size_t part, const PartOutline*);
     /// Works out the outlines of all parts from where their bodies are.
     void run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, const RuleBook&, const State&,
              float typicalLength);
@@ -33,6 +35,7 @@ private:
     std::vector<PartOutline> own_, outlines_;
     // [parts] into own_ and outlines_; up to the last that has one.
     Column<std::uint32_t> ownOf_{kNoOutline}, outlineOf_{kNoOutline};
+    std::vector<std::uint32_t> free_;  // rows of own_
     std::size_t parts_ = 0;
 };
 

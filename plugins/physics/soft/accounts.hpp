@@ -50,6 +50,12 @@ public:
     /// After some substeps, kSubsteps at most: takes what is too much.
     void close(const Scene&, int substeps);
 
+    /// Another body has this number now.
+    void forget(Index body)
+    {
+        std::erase_if(ledgers_, [body](const Ledger& ledger) { return ledger.body == body; });
+    }
+
     template <class Archive>
     void archive(Archive& with)
     {

@@ -503,6 +503,25 @@ void Contacts::forget(const State& state, const std::function<bool(Index)>& body
     for (Touch& touch : touches_) touch.seat = kNone;
 }
 
+void Contacts::remove(Index body)
+{
+    const auto has = [body](const auto& pair) { return pair.a == body || pair.b == body; };
+    std::erase_if(ended_, [body](const ContactPoint& c) { return c.bodyA == body || c.bodyB == body; });
+    if (body < path_.size()) path_[body] = 0;
+    if (std::none_of(pairs_.begin(), pairs_.end(), has)) return;
+    keep();
+    std::erase_if(pairs_, has);
+    std::vector<Touch> kept;
+    for (Pair& pair : pairs_) {
+        const auto first = static_cast<Index>(kept.size());
+        kept.insert(kept.end(), touches_.begin() + pair.first, touches_.begin() + pair.end);
+        pair.first = first, pair.end = static_cast<Index>(kept.size());
+    }
+    touches_.swap(kept);
+    resize(0);
+    for (Touch& touch : touches_) touch.seat = kNone;
+}
+
 bool Contacts::fits(const State& state) const
 {
     for (const Pair& pair : pairs_)

@@ -78,6 +78,8 @@ public:
         });
         with.list(path_, [&](double& path) { with(path); });
     }
+    /// What the body touches, and how far it went.
+    void remove(Index body);
     /// Does what was read back fit the state?
     bool fits(const State&) const;
     /// After reading back: there are no blocks.

@@ -94,7 +94,7 @@ void Joints::requireDirection(const JointDef& def, const Hold& a, const Hold& b)
     }
 }
 
-Index Joints::add(const State& state, const JointDef& def)
+Index Joints::add(const State& state, const JointDef& def, Index place)
 {
     Held held;
     held.a = hold(state, def.a), held.b = hold(state, def.b);
@@ -121,6 +121,10 @@ Index Joints::add(const State& state, const JointDef& def)
         if (row.soft) held.springMass = row.mass;
     held.joint.def.hertz = def.hertz;
     held.settling = kSettling;
+    if (place != kNone) {
+        joints_[place] = std::move(held);
+        return place;
+    }
     joints_.push_back(std::move(held));
     return static_cast<Index>(joints_.size() - 1);
 }

@@ -17,7 +17,8 @@ namespace jet::physics::soft {
 class Joints {
 public:
     /// Checks the anchors; throws a Failure that tells what is missing.
-    Index add(const State&, const JointDef&);
+    /// `place`: of a removed joint, that it takes over.
+    Index add(const State&, const JointDef&, Index place = kNone);
     bool empty() const { return joints_.empty(); }
     Index count() const { return static_cast<Index>(joints_.size()); }
     const JointDef& def(Index joint) const { return joints_[joint].joint.def; }
@@ -34,6 +35,7 @@ public:
     bool holds(Index body) const
     {
         return std::any_of(joints_.begin(), joints_.end(), [body](const Held& held) {
+            if (held.joint.removed) return false;
             return bodyOf(held.joint.def.a) == body || bodyOf(held.joint.def.b) == body;
         });
     }
@@ -94,6 +96,7 @@ public:
     void set(const State&, Index joint, const JointDef&);
     /// False when neither end is the background.
     bool setTarget(Index joint, const Vec2& target);
+    /// What it knew of the patches it held is given back when another joint takes its place.
     void remove(Index joint) { joints_[joint].joint.removed = true; }
     std::size_t bytes() const;
 

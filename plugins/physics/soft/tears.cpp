@@ -186,7 +186,7 @@ std::vector<std::vector<Index>> Tears::rings(const State& state, Index handle)
 Tears::Cut& Tears::cutOf(Index body)
 {
     auto at = std::lower_bound(cuts_.begin(), cuts_.end(), body, [](const Cut& cut, Index b) { return cut.body < b; });
-    if (at == cuts_.end() || at->body != body) at = cuts_.insert(at, Cut{body, 0, 0});
+    if (at == cuts_.end() || at->body != body) at = cuts_.insert(at, Cut()), at->body = body;
     return *at;
 }
 
@@ -216,6 +216,18 @@ void Tears::undo(State& state)
     // What is cut again shall get the same numbers again.
     if (state.bodies.size() == drawnRanges_.size()) state.walls = drawn_;
     cuts_.clear();
+}
+
+void Tears::forget(State& state, Index body)
+{
+    const auto cut = std::find_if(cuts_.begin(), cuts_.end(), [body](const Cut& c) { return c.body == body; });
+    if (cut == cuts_.end() || cut->room == 0) return;
+    BodyRecord& record = state.bodies[body];
+    record.walls = cut->drawn;
+    std::fill_n(state.walls.outward.begin() + record.walls.first, record.walls.count, std::int8_t{0});
+    record.soft->open = false, record.soft->pieceCount = 1;
+    record.soft->pieces.clear();
+    cut->torn = cut->room = 0;
 }
 
 bool Tears::due(const State& state, const SoftSprings& springs) const
@@ -254,7 +266,7 @@ void Tears::look(State& state, const SoftSprings& springs)
             for (const Ring& border : both[side])
                 for (Ring& ring : leftOf(mesh, border, side == 0 ? 1 : -1)) kept[side].push_back(std::move(ring));
         body.soft->open |= kept[0] != both[0] || kept[1] != both[1] || before != kept[0].size() + kept[1].size();
-        cut.room = std::max(cut.room, body.walls.count);
+        if (cut.room == 0) cut.room = body.walls.count, cut.drawn = body.walls;
         std::vector<Ring> all = kept[0];
         all.insert(all.end(), kept[1].begin(), kept[1].end());
         write(state, cut, all, -1);
@@ -273,13 +285,16 @@ void Tears::write(State& state, Cut& cut, const std::vector<Ring>& rings, std::i
     Walls& walls = state.walls;
     std::size_t count = 0;
     for (const Ring& ring : rings) count += ring.size();
-    if (count > cut.room) {
+    if (count > cut.room && count <= cut.spare.count) {
+        body.walls.first = cut.spare.first, cut.room = cut.spare.count;
+    } else if (count > cut.room) {
         cut.room = static_cast<Index>(2 * count);
         body.walls.first = static_cast<Index>(walls.size());
         const std::size_t size = walls.size() + cut.room;
         walls.first.resize(size, 0), walls.second.resize(size, 0), walls.previous.resize(size, 0);
         walls.next.resize(size, 0), walls.outward.resize(size, 0);
         walls.firstEnd.resize(size, WallEnd::Blunt), walls.secondEnd.resize(size, WallEnd::Blunt);
+        cut.spare = {body.walls.first, cut.room};
     }
     body.walls.count = static_cast<Index>(count);
     Index start = body.walls.first;

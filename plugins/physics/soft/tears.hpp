@@ -20,6 +20,8 @@ public:
     bool due(const State&, const SoftSprings&) const;
     /// Cuts the bodies in which they did. Walls get other numbers.
     void look(State&, const SoftSprings&);
+    /// The body is removed: its walls are where they were drawn, for another one.
+    void forget(State&, Index body);
     bool isCut(Index body) const
     {
         return std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) { return cut.body == body; });
@@ -59,6 +61,8 @@ private:
     struct Cut {
         Index body = 0, torn = 0;  // springs torn when it was looked at last
         Index room = 0;            // walls its range may hold
+        Range drawn;               // its range before it was cut
+        Range spare;               // that was given to it for its cuts, or to one that was removed
     };
     struct Mesh;
 

@@ -3,6 +3,8 @@
 #include "lattices.hpp"
 #include "shape_worlds.hpp"
 
+#include <jet/physics_removal.hpp>
+
 #include <malloc.h>
 
 #include <atomic>
@@ -74,6 +76,40 @@ TEST(SteadyStep, ABodyWhosePartsOverlapTakesNoMemoryForPairsOfThem)
     const long before = liveBytes;
     world->step(kStep);
     EXPECT_LT(liveBytes - before, 8'000'000);
+}
+
+/// Bodies with joints, springs and forces that come and go, 20 at a time.
+TEST(SteadyStep, AWorldInWhichBodiesComeAndGoTakesNoMoreMemory)
+{
+    for (const bool soft : {false, true}) {
+        auto world = makeWorld({0, 200});
+        world->addRigidBody(simple(ground(0)));
+        std::vector<BodyHandle> alive;
+        const auto turn = [&](int i) {
+            const Vec2 at(15.0 * (i % 9), -25.0 - i % 3);
+            const BodyHandle body =
+                soft ? world->addSoftBody(softBall(at, 8, 200, 1, 8, 2)) : world->addRigidBody(simple(box(at, 9, 9)));
+            const Anchor held{body, at, 0}, fixed{kNoHandle, at - Vec2(0, 20), 0};
+            JointDef rope;
+            rope.kind = JointDef::Kind::Rope;
+            rope.a = fixed, rope.b = held;
+            world->addJoint(rope);
+            world->addSpring({fixed, held});
+            world->addForce({held, {10, 0}});
+            alive.push_back(body);
+            if (alive.size() > 20) removal(*world).removeBody(alive.front()), alive.erase(alive.begin());
+            world->step(kStep);
+        };
+        const auto mostOf = [&](int from, int to) {
+            long most = 0;
+            for (int i = from; i < to; ++i) turn(i), most = std::max<long>(most, liveBytes);
+            return most;
+        };
+        const int steps = soft ? 300 : 3000;
+        const long before = mostOf(0, steps), after = mostOf(steps, 3 * steps);
+        // What contacts take goes up and down with how bodies lie.
+        EXPECT_LT(static_cast<double>(after), 1.1 * static_cast<double>(before)) << (soft ? "soft" : "rigid");
+    }
 }
 
 TEST(SteadyStep, TheCountSeesAnAllocation)

@@ -112,6 +112,19 @@ TEST(Tunnelling, ARainOfFastDiscsStaysInAThinBox)
         EXPECT_TRUE(inner.contains(world->bodies().position[body]));
 }
 
+/// As long as it is alone, the ground is no long part of the world; when something small comes, it is one.
+TEST(Tunnelling, AGroundThatWasAloneHoldsWhatComesLater)
+{
+    for (const double size : {1.0, 10.0, 300.0}) {
+        auto world = makeWorld({0, 100});
+        world->addRigidBody(simple(ground(0)));
+        run(*world, 0.5);
+        const BodyHandle body = world->addRigidBody(simple(box({0, -size - 5}, size, size)));
+        run(*world, 2);
+        EXPECT_NEAR(world->bodies().position[body].y(), -size / 2, 0.01 * size) << size;
+    }
+}
+
 }  // namespace
 
 }  // namespace jet::physics::test
