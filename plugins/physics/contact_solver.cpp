@@ -187,8 +187,7 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
 /// last.
 bool ContactSolver::rests(const ContactPoint& c) const
 {
-    const BodyRecord &a = state_.bodies[c.bodyA], &b = state_.bodies[c.bodyB];
-    return (a.asleep && (b.asleep || b.fixed)) || (b.asleep && a.fixed);
+    return state_.atRest(c.bodyA, c.bodyB);
 }
 
 void ContactSolver::prepare()

@@ -85,6 +85,7 @@ void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, st
     const Corner corner(state, spring);
     spring.angle = def.restAngle + wrapped(corner.angle() - def.restAngle);
     spring.restCompliance = corner.compliance;
+    spring.body = static_cast<Index>(meshes_.size()) - 1;
     angular_.push_back(spring);
 }
 
@@ -103,8 +104,10 @@ double SoftSprings::energy(const State& state, const Angular& spring, double h)
 
 void SoftSprings::applyAngular(State& state, double h, bool backwards)
 {
-    for (std::size_t i = 0; i < angular_.size(); ++i)
-        applyAngularSpring(state, angular_[backwards ? angular_.size() - 1 - i : i], h);
+    for (std::size_t i = 0; i < angular_.size(); ++i) {
+        Angular& spring = angular_[backwards ? angular_.size() - 1 - i : i];
+        if (!state.bodies[spring.body].asleep) applyAngularSpring(state, spring, h);
+    }
 }
 
 void SoftSprings::addAngularForces(State& state)

@@ -9,6 +9,7 @@
 #include "queries.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
+#include "slumber.hpp"
 #include "soft/accounts.hpp"
 #include "soft/contacts.hpp"
 #include "soft/joints.hpp"
@@ -127,8 +128,19 @@ private:
     void wakeHeld(const Anchor&);
     /// It was moved from outside: it wakes, and so does what rests on it.
     void rouse(BodyHandle);
-    void wakeBesideSoft();
+    void wakeUp(BodyHandle);
+    void wakeAll();
+    void stir(BodyHandle);
+    bool anyAsleep() const { return slumber_.any() || rigid_.anyAsleep(); }
+    /// May it wake others?
+    bool comesNear(Index body) const;
+    void spreadWaking(bool midst);
+    Bonds bondsOfRigid() const;
     void restIfDue(double dt);
+    void restTogether();
+    void nameIslands(std::vector<Index>& group);
+    bool nothingMoves() const;
+    void noteStanding();
     /// After restoring a state of another table of materials: whom bodies meet is found afresh.
     void heedMaterials();
     void keepMark();
@@ -171,6 +183,8 @@ private:
     }
     template <class Self, class Archive>
     static void archive(Self& self, Archive& with);
+    template <class Self, class Archive>
+    static void archiveSlumber(Self& self, Archive& with);
 
     WorldSettings settings_;
     State state_;
@@ -190,6 +204,7 @@ private:
     std::vector<JointAt> jointsAt_;
     soft::Tears tears_;
     RigidStage rigid_;
+    Slumber slumber_;
     Queries queries_;
     Column<double> gyrations_{1};  // [bodies] units, of rigid ones that rigid_ does not have; up to the last of them
     bool lean_ = true;             // nothing has needed the points and walls of bodies of one shape
@@ -199,6 +214,7 @@ private:
     bool settled_ = false;                 // has it been stepped?
     bool stale_ = false;                   // points and readings are older than the nodes
     bool untold_ = false;                  // so are the reports
+    Index softMovers_ = 0;                 // soft bodies that are not fixed
     Index complex_ = 0;                    // bodies that go by points and walls
     std::vector<ContactPoint> ended_;      // pushed in this step, but are over
     Column<Vec2> stepForces_{Vec2(0, 0)};  // [nodes] of applyForce, for the next step only; no rows before the first
