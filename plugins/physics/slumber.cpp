@@ -13,14 +13,28 @@ constexpr double kStillSpeed = 0.001;  // lengths of the body a second, at most
 constexpr double kUnborne = 2e-4;      // of gravity: acceleration that counts as none
 constexpr double kUnborneSize = 2e-4;  // lengths / s²: the same without gravity
 constexpr double kLeft = 0.002;        // lengths that what swings or creeps may have before it
-constexpr double kMoment = 4;          // times that speed, for a moment
+constexpr double kFast = 4;            // times the greatest speed: with that, it moves
 
-double fastest(const State& state, const BodyRecord& body)
+/// Units from its place at the last look.
+double farthest(const State& state, const BodyRecord& body)
 {
     double squared = 0;
-    for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        squared = std::max(squared, state.nodes.velocity[n].squaredNorm());
+    for (Index k = 0; k < body.nodes.count; ++k)
+        squared = std::max(squared,
+                           (state.nodes.position[body.nodes.first + k] - body.soft->watch.places[k]).squaredNorm());
     return std::sqrt(squared);
+}
+
+/// Is much of it fast? What is pressed between others may have a speed without moving.
+bool isFast(const State& state, const BodyRecord& body)
+{
+    constexpr Index kAsked = 8;
+    const double most = kFast * kStillSpeed * body.length;
+    const Index stride = std::max<Index>(1, body.nodes.count / kAsked);
+    Index fast = 0, asked = 0;
+    for (Index n = body.nodes.first; n < body.nodes.end(); n += stride, ++asked)
+        fast += state.nodes.velocity[n].squaredNorm() > most * most;
+    return 2 * fast > asked;
 }
 
 bool mayFallAsleep(const BodyRecord& body)
@@ -41,7 +55,7 @@ void Slumber::watch(State& state)
     if (almost_ == 0) return;
     for (BodyRecord& body : state.bodies) {
         if (!body.soft || body.soft->watch.looks != kAlmost) continue;
-        if (!(fastest(state, body) <= static_cast<double>(body.soft->watch.calm))) forget(body.soft->watch);
+        if (!(farthest(state, body) <= static_cast<double>(body.soft->watch.room))) forget(body.soft->watch);
     }
 }
 
@@ -83,13 +97,7 @@ void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& a
             forget(is.soft->watch);
             continue;
         }
-        // Most of what moves is seen at once.
-        const double most = kMoment * kStillSpeed * is.length;
-        const Index stride = std::max<Index>(1, is.nodes.count / 8);
-        bool slow = true;
-        for (Index n = is.nodes.first; n < is.nodes.end() && slow; n += stride)
-            slow = state.nodes.velocity[n].squaredNorm() <= most * most;
-        if (!slow) {
+        if (isFast(state, is)) {
             forget(is.soft->watch);
             continue;
         }
@@ -118,16 +126,15 @@ Slumber::Bounds Slumber::boundsOf(const State& state, Index body, const SoftSpri
     return bounds;
 }
 
-/// Was it still between the last two looks and this one, and never fast since the last?
+/// Was it still between the last two looks and this one, and near its place at the last one all the time?
 bool Slumber::look(State& state, Index body, const Bounds& bounds, double interval)
 {
     RestWatch& watch = state.bodies[body].soft->watch;
     const Range& own = state.bodies[body].nodes;
-    const auto calm = static_cast<float>(std::min(kMoment * bounds.speed, 1e30));
     const bool known = watch.looks > 0 && watch.places.size() == own.count;
     almost_ -= watch.looks == kAlmost;
     const std::uint8_t looks = known ? watch.looks : 0;
-    watch.calm = calm, watch.looks = 1;
+    watch.room = static_cast<float>(std::min(kLook * bounds.speed, 1e30)), watch.looks = 1;
     watch.places.resize(own.count), watch.speeds.resize(2 * std::size_t{own.count});
     double fastest = 0, bend = 0;
     for (Index k = 0; k < own.count; ++k) {

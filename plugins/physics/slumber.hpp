@@ -25,7 +25,7 @@ class Slumber {
 public:
     /// Is it time to look who rests, after a step of dt?
     bool due(double dt);
-    /// After each step: what is fast for a moment does not rest.
+    /// After each step: what swings would not be seen where it comes back between the looks.
     void watch(State&);
     /// Looks at each soft body that is awake.
     void judge(State&, const SoftSprings&, const Actuators&, const WorldSettings&);
@@ -61,7 +61,7 @@ public:
         for (BodyRecord& body : state.bodies) {
             if (!body.soft) continue;
             RestWatch& watch = body.soft->watch;
-            with(watch.mayRest), with(watch.looks), with(watch.calm);
+            with(watch.mayRest), with(watch.looks), with(watch.room);
             with.list(watch.places, [&](Vec2& place) { with(place); });
             with.list(watch.speeds, [&](float& speed) { with(speed); });
         }

@@ -86,7 +86,7 @@ struct Range {
 struct RestWatch {
     bool mayRest = true, drawnMayRest = true;
     std::uint8_t looks = 0;     // 1: places are known; 2: speeds, too; 3: it was still
-    float calm = 0;             // units / s: faster, it does not rest
+    float room = 0;             // units it may come away from them
     std::vector<Vec2> places;   // [nodes] at the last look; empty: not known
     std::vector<float> speeds;  // [2 nodes] mean before it, units / s
 };

@@ -156,10 +156,10 @@ void World::stepPart(double dt)
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
     for (BodyRecord& body : state_.bodies) body.flown = false;
+    if (softJoints_.finish(state_, dt)) finder_.exclude(softJoints_.excluded());
     restIfDue(dt);
     springs_.flow(state_, dt, h);
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
-    if (softJoints_.finish(state_, dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
     if (!lean_) updateReadings(state_);
     untold_ = true;
