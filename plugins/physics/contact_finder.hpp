@@ -55,7 +55,8 @@ public:
 private:
     bool isSlow(const State&, const BodyPair&, double dt) const;
     void splitPairs(const State&, double dt);
-    void keepResting(const State&, const WorldSettings&, std::span<const ContactPoint>, std::vector<ContactPoint>&) const;
+    void keepResting(const State&, const WorldSettings&, std::span<const ContactPoint>,
+                     std::vector<ContactPoint>&) const;
     bool expectHits(const State&, double dt);
     void readBorders(State&);
     void predict(const State&, const WorldSettings&, double dt);

@@ -185,10 +185,7 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
 
 /// Nothing weighs on what sleeps, so a contact would push it away from what stands; there each substep is like the
 /// last.
-bool ContactSolver::rests(const ContactPoint& c) const
-{
-    return state_.atRest(c.bodyA, c.bodyB);
-}
+bool ContactSolver::rests(const ContactPoint& c) const { return state_.atRest(c.bodyA, c.bodyB); }
 
 void ContactSolver::prepare()
 {

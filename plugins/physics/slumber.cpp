@@ -20,8 +20,8 @@ double farthest(const State& state, const BodyRecord& body)
 {
     double squared = 0;
     for (Index k = 0; k < body.nodes.count; ++k)
-        squared = std::max(squared,
-                           (state.nodes.position[body.nodes.first + k] - body.soft->watch.places[k]).squaredNorm());
+        squared =
+            std::max(squared, (state.nodes.position[body.nodes.first + k] - body.soft->watch.places[k]).squaredNorm());
     return std::sqrt(squared);
 }
 
@@ -63,8 +63,6 @@ void Slumber::forget(RestWatch& watch)
 {
     almost_ -= watch.looks == kAlmost;
     watch.looks = 0;
-    if (watch.places.empty()) return;
-    watch.places = std::vector<Vec2>(), watch.speeds = std::vector<float>();
 }
 
 void Slumber::disturb(State& state, Index body)
@@ -72,11 +70,11 @@ void Slumber::disturb(State& state, Index body)
     if (state.bodies[body].soft) forget(state.bodies[body].soft->watch);
 }
 
-void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& actuators,
-                    const WorldSettings& settings)
+void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& actuators, const WorldSettings& settings)
 {
     const double interval = sinceLook_;
     sinceLook_ = 0;
+    islands_.reserve(state.bodies.size());
     still_.assign(state.bodies.size(), 0);
     constexpr double kNoBound = std::numeric_limits<double>::infinity();
     held_.assign(state.bodies.size(), {kNoBound, kNoBound});
@@ -97,12 +95,13 @@ void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& a
             forget(is.soft->watch);
             continue;
         }
+        is.soft->watch.places.resize(is.nodes.count), is.soft->watch.speeds.resize(2 * std::size_t{is.nodes.count});
         if (isFast(state, is)) {
             forget(is.soft->watch);
             continue;
         }
-        still_[body] = look(state, body, boundsOf(state, body, springs, settings), interval) &&
-                       !springs.flows(state, body);
+        still_[body] =
+            look(state, body, boundsOf(state, body, springs, settings), interval) && !springs.flows(state, body);
     }
 }
 
@@ -131,15 +130,13 @@ bool Slumber::look(State& state, Index body, const Bounds& bounds, double interv
 {
     RestWatch& watch = state.bodies[body].soft->watch;
     const Range& own = state.bodies[body].nodes;
-    const bool known = watch.looks > 0 && watch.places.size() == own.count;
     almost_ -= watch.looks == kAlmost;
-    const std::uint8_t looks = known ? watch.looks : 0;
+    const std::uint8_t looks = watch.looks;
     watch.room = static_cast<float>(std::min(kLook * bounds.speed, 1e30)), watch.looks = 1;
-    watch.places.resize(own.count), watch.speeds.resize(2 * std::size_t{own.count});
     double fastest = 0, bend = 0;
     for (Index k = 0; k < own.count; ++k) {
         const Vec2& at = state.nodes.position[own.first + k];
-        const Vec2 speed = (at - watch.places[k]) / interval;
+        const Vec2 speed = looks > 0 ? Vec2((at - watch.places[k]) / interval) : Vec2(0, 0);
         const Vec2 before(static_cast<double>(watch.speeds[2 * k]), static_cast<double>(watch.speeds[2 * k + 1]));
         fastest = std::max(fastest, speed.squaredNorm()), bend = std::max(bend, (speed - before).squaredNorm());
         watch.places[k] = at;
@@ -190,13 +187,15 @@ bool Slumber::fits(const State& state) const
 {
     const auto known = [&](Index body) { return body < state.bodies.size(); };
     if (islands_.size() > state.bodies.size()) return false;
-    if (!std::all_of(islands_.begin(), islands_.end(), [&](Index is) { return is == kNone || known(is); })) return false;
+    if (!std::all_of(islands_.begin(), islands_.end(), [&](Index is) { return is == kNone || known(is); }))
+        return false;
     if (!std::all_of(stirred_.begin(), stirred_.end(), known)) return false;
     std::uint32_t almost = 0, sleepers = 0;
     for (const BodyRecord& body : state.bodies) {
         if (!body.soft) continue;
         const RestWatch& watch = body.soft->watch;
-        if (watch.looks > kAlmost || watch.speeds.size() != 2 * watch.places.size()) return false;
+        if (watch.looks > kAlmost || (watch.looks > 0 && watch.places.size() != body.nodes.count)) return false;
+        if (watch.speeds.size() != 2 * watch.places.size()) return false;
         almost += watch.looks == kAlmost, sleepers += body.asleep;
     }
     return almost == almost_ && sleepers == sleepers_;

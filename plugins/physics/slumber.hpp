@@ -11,7 +11,8 @@
 // which says that what is left of its motion takes no particle farther than 0.002 of its length. omega is that of the
 // whole body on its weakest spring: lattices swing faster. What still flows (SoftMatter::yield) does not rest.
 //
-// Alternative that lost: the centre of mass and the angle alone, which is cheaper, and does not see a body that breathes.
+// Alternative that lost: the centre of mass and the angle alone, which is cheaper, and does not see a body that
+// breathes.
 #pragma once
 
 #include "actuators.hpp"
@@ -62,6 +63,7 @@ public:
             if (!body.soft) continue;
             RestWatch& watch = body.soft->watch;
             with(watch.mayRest), with(watch.looks), with(watch.room);
+            if (watch.looks == 0) continue;
             with.list(watch.places, [&](Vec2& place) { with(place); });
             with.list(watch.speeds, [&](float& speed) { with(speed); });
         }

@@ -56,8 +56,9 @@ public:
     double energy(const State&, Index body, double h) const;
     /// What says how slowly a body may move by itself.
     struct Slowest {
-        double ks = std::numeric_limits<double>::infinity();    // least of its springs, force / unit
-        double fade = std::numeric_limits<double>::infinity();  // least ks / kd, 1 / s: how fast what is damped comes to rest
+        double ks = std::numeric_limits<double>::infinity();  // least of its springs, force / unit
+        double fade =
+            std::numeric_limits<double>::infinity();  // least ks / kd, 1 / s: how fast what is damped comes to rest
     };
     Slowest slowest(Index body) const;
     /// Does plasticity change the body as it is?
@@ -129,8 +130,8 @@ private:
         double angle;           // unwrapped: continues through ±pi
         double restCompliance;  // sum of |grad angle|² / m at rest
         Index body = 0;
-        double stiffness = 0;   // ks after softening
-        double damping = 0;     // kd and what softening adds
+        double stiffness = 0;  // ks after softening
+        double damping = 0;    // kd and what softening adds
     };
     struct Corner;
     struct Kind {

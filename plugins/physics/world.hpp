@@ -138,7 +138,7 @@ private:
     Bonds bondsOfRigid() const;
     void restIfDue(double dt);
     void restTogether();
-    void nameIslands(std::vector<Index>& group);
+    void nameIslands();
     bool nothingMoves() const;
     void noteStanding();
     /// After restoring a state of another table of materials: whom bodies meet is found afresh.
@@ -205,6 +205,13 @@ private:
     soft::Tears tears_;
     RigidStage rigid_;
     Slumber slumber_;
+    /// Scratch of restTogether().
+    struct Resting {
+        std::vector<Index> group, firstRigid, root;  // [bodies]
+        std::vector<std::uint8_t> restless, soft;    // [bodies]
+        Bonds bonds;
+    };
+    Resting resting_;
     Queries queries_;
     Column<double> gyrations_{1};  // [bodies] units, of rigid ones that rigid_ does not have; up to the last of them
     bool lean_ = true;             // nothing has needed the points and walls of bodies of one shape

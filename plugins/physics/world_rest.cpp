@@ -153,10 +153,14 @@ void World::restTogether()
     slumber_.judge(state_, springs_, actuators_, settings_);
     const std::vector<BodyRecord>& bodies = state_.bodies;
     const auto count = static_cast<Index>(bodies.size());
-    std::vector<Index> group(count), firstRigid(count, kNone);
-    std::vector<std::uint8_t> restless(count, 0);
+    auto& [group, firstRigid, root, restless, soft, bonds] = resting_;
+    group.resize(count), root.resize(count), soft.assign(count, 0);
+    firstRigid.assign(count, kNone), restless.assign(count, 0);
+    bonds.pairs.clear(), bonds.awake.clear();
     std::iota(group.begin(), group.end(), Index{0});
-    const auto moves = [&](Index body) { return bodies[body].enabled && !bodies[body].fixed && !bodies[body].kinematic; };
+    const auto moves = [&](Index body) {
+        return bodies[body].enabled && !bodies[body].fixed && !bodies[body].kinematic;
+    };
     for (Index body = 0; body < count; ++body) {
         if (!moves(body) || bodies[body].asleep || bodies[body].simple) continue;
         restless[body] = bodies[body].rigid || !slumber_.isStill(body) || finder_.expectsHit(body);
@@ -167,20 +171,20 @@ void World::restTogether()
         if (moves(a) && state_.isDriven(bodies[b])) restless[a] = 1;
         if (moves(b) && state_.isDriven(bodies[a])) restless[b] = 1;
     };
-    Bonds bonds;
     actuators_.eachBond([&](Index a, Index b) { hold(a, b), bonds.pairs.emplace_back(a, b); });
     softJoints_.eachBond(hold);
     finder_.eachNear(hold);
-    for (Index body = 0; body < count; ++body) restless[rootOf(group, body)] |= restless[body];
+    for (Index body = 0; body < count; ++body)
+        if (restless[body] != 0) restless[rootOf(group, body)] = 1;
     for (Index body = 0; body < count; ++body) {
         if (!bodies[body].simple || !moves(body)) continue;
-        const Index root = rootOf(group, body);
-        if (restless[root] != 0) {
+        const Index first = rootOf(group, body);
+        if (restless[first] != 0) {
             bonds.awake.push_back(body);
-        } else if (firstRigid[root] == kNone) {
-            firstRigid[root] = body;
+        } else if (firstRigid[first] == kNone) {
+            firstRigid[first] = body;
         } else {
-            bonds.pairs.emplace_back(firstRigid[root], body);
+            bonds.pairs.emplace_back(firstRigid[first], body);
         }
     }
     if (!rigid_.empty()) rigid_.rest(state_, settings_, bonds);
@@ -192,17 +196,17 @@ void World::restTogether()
         slumber_.fallAsleep(state_, body);
         any = true;
     }
-    if (any) nameIslands(group);
+    if (any) nameIslands();
 }
 
 /// Of what sleeps: by their least bodies, where one of them is soft.
-void World::nameIslands(std::vector<Index>& group)
+void World::nameIslands()
 {
     const std::vector<BodyRecord>& bodies = state_.bodies;
     const auto count = static_cast<Index>(bodies.size());
     std::vector<Index>& islands = slumber_.islands();
     islands.resize(count, kNone);
-    std::vector<Index> root(count);
+    auto& [group, firstRigid, root, restless, soft, bonds] = resting_;
     std::iota(root.begin(), root.end(), Index{0});
     for (Index body = 0; body < count; ++body) {
         if (!bodies[body].asleep) continue;
@@ -210,7 +214,6 @@ void World::nameIslands(std::vector<Index>& group)
         if (rigid_.has(body)) unite(root, body, rigid_.groupOf(body));
         if (bodies[rootOf(group, body)].asleep) unite(root, body, rootOf(group, body));
     }
-    std::vector<std::uint8_t> soft(count, 0);
     for (Index body = 0; body < count; ++body)
         if (bodies[body].asleep && bodies[body].soft) soft[rootOf(root, body)] = 1;
     for (Index body = 0; body < count; ++body)

@@ -217,14 +217,29 @@ struct Change {
 std::vector<Change> changes()
 {
     return {
-        {"soft matter", [](PhysicsWorld& w) { w.setSoftMatter(kJelly, {0, 5}); }},
+        {"soft matter",
+         [](PhysicsWorld& w) {
+             w.setSoftMatter(kJelly, {0, 5});
+         }},
         {"springs", [](PhysicsWorld& w) { w.setSprings(kJelly, 500, 5, 0); }},
         {"a pin", [](PhysicsWorld& w) { w.setPinned(kJelly, 3, true); }},
-        {"a force", [](PhysicsWorld& w) { w.applyForce(kJelly, {0, -1}); }},
-        {"an impulse", [](PhysicsWorld& w) { w.applyImpulse(kJelly, {0, -1}); }},
-        {"a velocity", [](PhysicsWorld& w) { w.setVelocity(kJelly, {1, 0}); }},
+        {"a force",
+         [](PhysicsWorld& w) {
+             w.applyForce(kJelly, {0, -1});
+         }},
+        {"an impulse",
+         [](PhysicsWorld& w) {
+             w.applyImpulse(kJelly, {0, -1});
+         }},
+        {"a velocity",
+         [](PhysicsWorld& w) {
+             w.setVelocity(kJelly, {1, 0});
+         }},
         {"a turning rate", [](PhysicsWorld& w) { w.setOmega(kJelly, 0.1); }},
-        {"a place", [](PhysicsWorld& w) { w.setPosition(kJelly, {0, -7}); }},
+        {"a place",
+         [](PhysicsWorld& w) {
+             w.setPosition(kJelly, {0, -7});
+         }},
         {"a mass", [](PhysicsWorld& w) { w.setMass(kJelly, 2); }},
         {"a body's properties",
          [](PhysicsWorld& w) {
@@ -238,7 +253,10 @@ std::vector<Change> changes()
              common.allowSleep = false;
              w.setBody(kJelly, common);
          }},
-        {"gravity", [](PhysicsWorld& w) { w.setGravity({0, 50}); }},
+        {"gravity",
+         [](PhysicsWorld& w) {
+             w.setGravity({0, 50});
+         }},
         {"settings",
          [](PhysicsWorld& w) {
              WorldSettings settings = sleepy();
@@ -252,19 +270,34 @@ std::vector<Change> changes()
              w.setSettings(settings);
          }},
         {"a field of force", [](PhysicsWorld& w) { w.addForceField({}); }},
-        {"a spring to it", [](PhysicsWorld& w) { w.addSpring({{kJelly, {0, -9}, 0}, {kNoHandle, {0, -30}, 0}}); }},
+        {"a spring to it",
+         [](PhysicsWorld& w) {
+             w.addSpring({{kJelly, {0, -9}, 0}, {kNoHandle, {0, -30}, 0}});
+         }},
         {"a joint to it",
          [](PhysicsWorld& w) {
              JointDef joint;
              joint.a = {kJelly, {0, -9}, 0}, joint.b = {kNoHandle, {0, -9}, 0};
              w.addJoint(joint);
          }},
-        {"a force on it", [](PhysicsWorld& w) { w.addForce({{kJelly, {0, -9}, 0}, {0, -5}}); }},
+        {"a force on it",
+         [](PhysicsWorld& w) {
+             w.addForce({{kJelly, {0, -9}, 0}, {0, -5}});
+         }},
         {"switching it off", [](PhysicsWorld& w) { w.setEnabled(kJelly, false); }},
-        {"the box above pushed", [](PhysicsWorld& w) { w.applyImpulse(kBox, {0.1, 0}); }},
-        {"the box above taken away", [](PhysicsWorld& w) { w.setPosition(kBox, {100, -20}); }},
+        {"the box above pushed",
+         [](PhysicsWorld& w) {
+             w.applyImpulse(kBox, {0.1, 0});
+         }},
+        {"the box above taken away",
+         [](PhysicsWorld& w) {
+             w.setPosition(kBox, {100, -20});
+         }},
         {"the box above switched off", [](PhysicsWorld& w) { w.setEnabled(kBox, false); }},
-        {"the ground moved", [](PhysicsWorld& w) { w.setPosition(kGround, {0, 55}); }},
+        {"the ground moved",
+         [](PhysicsWorld& w) {
+             w.setPosition(kGround, {0, 55});
+         }},
         {"the ground switched off", [](PhysicsWorld& w) { w.setEnabled(kGround, false); }},
         {"the ground's properties",
          [](PhysicsWorld& w) {
@@ -298,10 +331,16 @@ TEST(SoftSleep, ChangesOfWhatHoldsItWake)
     const ActuatorHandle force = world->addForce({{kJelly, {0, -6}, 0}, {0, 1}});
     const ActuatorHandle spring = world->addSpring({{kJelly, {0, -9}, 0}, {kNoHandle, {0, -30}, 0}, 20, 1, 1, 0});
     const std::vector<Change> all = {
-        {"target", [&](PhysicsWorld& w) { w.setJointTarget(mouse, {1, -6}); }},
+        {"target",
+         [&](PhysicsWorld& w) {
+             w.setJointTarget(mouse, {1, -6});
+         }},
         {"joint", [&](PhysicsWorld& w) { joint.maxForce = 20, w.setJoint(mouse, joint); }},
         {"removed", [&](PhysicsWorld& w) { w.removeJoint(mouse); }},
-        {"force", [&](PhysicsWorld& w) { w.setForce(force, {0, 2}); }},
+        {"force",
+         [&](PhysicsWorld& w) {
+             w.setForce(force, {0, 2});
+         }},
         {"spring", [&](PhysicsWorld& w) { w.setSpring(spring, 20, 2, 1, 0); }},
     };
     for (const Change& change : all) {
