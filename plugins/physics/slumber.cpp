@@ -12,7 +12,7 @@ constexpr double kLook = 0.25;         // seconds between looks
 constexpr double kStillSpeed = 0.001;  // lengths of the body a second, at most
 constexpr double kUnborne = 2e-4;      // of gravity: acceleration that counts as none
 constexpr double kUnborneSize = 2e-4;  // lengths / s²: the same without gravity
-constexpr double kLeft = 0.002;        // lengths that what swings or creeps may have before it
+constexpr double kLeft = 0.0002;       // lengths that what swings or creeps may have before it
 constexpr double kFast = 4;            // times the greatest speed: with that, it moves
 
 /// Units from its place at the last look.
@@ -32,9 +32,12 @@ bool isFast(const State& state, const BodyRecord& body)
     const double most = kFast * kStillSpeed * body.length;
     const Index stride = std::max<Index>(1, body.nodes.count / kAsked);
     Index fast = 0, asked = 0;
-    for (Index n = body.nodes.first; n < body.nodes.end(); n += stride, ++asked)
+    for (Index n = body.nodes.first; n < body.nodes.end(); n += stride) {
+        if (state.nodes.invMass[n] == 0) continue;
+        ++asked;
         fast += state.nodes.velocity[n].squaredNorm() > most * most;
-    return 2 * fast > asked;
+    }
+    return fast > 0 && 2 * fast >= asked;
 }
 
 bool mayFallAsleep(const BodyRecord& body)
@@ -50,13 +53,22 @@ bool Slumber::due(double dt)
     return sinceLook_ > kLook - 1e-9;
 }
 
-void Slumber::watch(State& state)
+void Slumber::watch(State& state, double dt)
 {
     if (almost_ == 0) return;
+    constexpr double kTremble = 2;  // steps at the greatest speed
+    const double elapsed = sinceLook_ + (1 + kTremble) * dt;
     for (BodyRecord& body : state.bodies) {
         if (!body.soft || body.soft->watch.looks != kAlmost) continue;
-        if (!(farthest(state, body) <= static_cast<double>(body.soft->watch.room))) forget(body.soft->watch);
+        if (!(farthest(state, body) <= elapsed * static_cast<double>(body.soft->watch.speed))) forget(body.soft->watch);
     }
+}
+
+void Slumber::watchWithin(State& state)
+{
+    if (almost_ == 0) return;
+    for (BodyRecord& body : state.bodies)
+        if (body.soft && body.soft->watch.looks == kAlmost && isFast(state, body)) forget(body.soft->watch);
 }
 
 void Slumber::forget(RestWatch& watch)
@@ -132,7 +144,7 @@ bool Slumber::look(State& state, Index body, const Bounds& bounds, double interv
     const Range& own = state.bodies[body].nodes;
     almost_ -= watch.looks == kAlmost;
     const std::uint8_t looks = watch.looks;
-    watch.room = static_cast<float>(std::min(kLook * bounds.speed, 1e30)), watch.looks = 1;
+    watch.speed = static_cast<float>(std::min(bounds.speed, 1e30)), watch.looks = 1;
     double fastest = 0, bend = 0;
     for (Index k = 0; k < own.count; ++k) {
         const Vec2& at = state.nodes.position[own.first + k];

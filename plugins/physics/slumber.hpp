@@ -6,9 +6,9 @@
 // body has to be. But what is soft also moves by itself, and may do so more slowly than any fixed bound: a weak spring
 // swings in minutes, a strong damper lets a body sag for hours. So what is slow is measured by the body itself:
 //
-//   speed < 0.002 L omega,  speed < 0.002 L ks / kd,  acceleration < 0.002 L omega²,   omega² = least ks / mass,
+//   speed < 0.0002 L omega,  speed < 0.0002 L ks / kd,  acceleration < 0.0002 L omega²,   omega² = least ks / mass,
 //
-// which says that what is left of its motion takes no particle farther than 0.002 of its length. omega is that of the
+// which says that what is left of its motion takes no particle farther than 0.0002 of its length. omega is that of the
 // whole body on its weakest spring: lattices swing faster. What still flows (SoftMatter::yield) does not rest.
 //
 // Alternative that lost: the centre of mass and the angle alone, which is cheaper, and does not see a body that
@@ -27,7 +27,9 @@ public:
     /// Is it time to look who rests, after a step of dt?
     bool due(double dt);
     /// After each step: what swings would not be seen where it comes back between the looks.
-    void watch(State&);
+    void watch(State&, double dt);
+    /// In the midst of a step: what comes back after each step would not be seen there either.
+    void watchWithin(State&);
     /// Looks at each soft body that is awake.
     void judge(State&, const SoftSprings&, const Actuators&, const WorldSettings&);
     /// As of the last judge().
@@ -62,7 +64,7 @@ public:
         for (BodyRecord& body : state.bodies) {
             if (!body.soft) continue;
             RestWatch& watch = body.soft->watch;
-            with(watch.mayRest), with(watch.looks), with(watch.room);
+            with(watch.mayRest), with(watch.looks), with(watch.speed);
             if (watch.looks == 0) continue;
             with.list(watch.places, [&](Vec2& place) { with(place); });
             with.list(watch.speeds, [&](float& speed) { with(speed); });

@@ -86,7 +86,7 @@ struct Range {
 struct RestWatch {
     bool mayRest = true, drawnMayRest = true;
     std::uint8_t looks = 0;     // 1: places are known; 2: speeds, too; 3: it was still
-    float room = 0;             // units it may come away from them
+    float speed = 0;            // units / s, at which it may come away from them
     std::vector<Vec2> places;   // [nodes] at the last look
     std::vector<float> speeds;  // [2 nodes] mean before it, units / s
 };

@@ -142,7 +142,7 @@ void World::restIfDue(double dt)
         if (rigidDue) rigid_.rest(state_, settings_, bondsOfRigid());
         return;
     }
-    slumber_.watch(state_);
+    slumber_.watch(state_, dt);
     if (slumber_.due(dt)) restTogether();
 }
 

@@ -149,6 +149,7 @@ void World::stepPart(double dt)
             accounts_.open(accounted(h));
         }
         substep(h, i, count);
+        if (i == 2 * count / 5) slumber_.watchWithin(state_);
         if (i + 1 < count) continue;
         accounts_.close(accounted(h), i % soft::Accounts::kSubsteps + 1);
         rigid_.finish(state_, true);
