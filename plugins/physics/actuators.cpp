@@ -223,8 +223,10 @@ void Actuators::prepare(const StiffnessBounds& bounds, double h, bool plain)
 void Actuators::addForces(State& state) const
 {
     for (const Torque& torque : torques_)
-        if (torque.at.count > 0 && torque.value != 0) addCouple(state, state.bodies[torque.at.body], torque.value);
-    for (const Force& force : forces_) force.at.addForce(state, force.force);
+        if (torque.at.count > 0 && torque.value != 0 && !state.bodies[torque.at.body].asleep)
+            addCouple(state, state.bodies[torque.at.body], torque.value);
+    for (const Force& force : forces_)
+        if (!sleeps(state, force.at)) force.at.addForce(state, force.force);
 }
 
 /// Damping comes in two halves, of which the second goes through the springs the other way: dampers one after the other

@@ -68,6 +68,14 @@ public:
             if (!spring.removed) visit(spring.a.body, spring.centre.body), visit(spring.centre.body, spring.b.body);
     }
 
+    /// Calls visit(body, body, ks, kd) for the whole springs; kNone: the background.
+    template <class Visit>
+    void eachSpring(Visit&& visit) const
+    {
+        for (const Spring& spring : springs_)
+            if (spring.alive != 0) visit(spring.a.body, spring.b.body, spring.ks, spring.kd);
+    }
+
     /// What whole springs hold: visit(body, body, energy); ½ ks e e', e the strain now, e' before the last move over h.
     template <class Visit>
     void eachEnergy(const State& state, double h, Visit&& visit) const

@@ -109,8 +109,7 @@ private:
 
 }  // namespace
 
-void ContactFinder::find(State& state, const WorldSettings& settings, double dt, bool first,
-                         std::vector<ContactPoint>& contacts, StepStats& stats)
+void ContactFinder::seek(State& state, const WorldSettings& settings, double dt, bool first, StepStats& stats)
 {
     const auto start = std::chrono::steady_clock::now();
     // Nothing can meet where there is only one body.
@@ -118,17 +117,22 @@ void ContactFinder::find(State& state, const WorldSettings& settings, double dt,
     for (const BodyRecord& body : state.bodies)
         bodies += body.points.count == 0 || body.removed ? 0 : body.meetsOwn() ? 2 : 1;
     lonely_ = bodies < 2;
-    softPairs_.clear();
-    if (lonely_) {
-        contacts.clear();
-        return;
-    }
+    clear();
+    if (lonely_) return;
     if (!first) readAgain(state);
     predict(state, settings, dt);
     findPairs(state, motions_, pairs_);
     for (int round = 0; round < kHitRounds && expectHits(state, dt); ++round) findPairs(state, motions_, pairs_);
     stats.broadPhaseMs += millisecondsSince(start);
+}
 
+void ContactFinder::find(State& state, const WorldSettings& settings, double dt, std::vector<ContactPoint>& contacts,
+                         StepStats& stats)
+{
+    if (lonely_) {
+        contacts.clear();
+        return;
+    }
     const auto narrow = std::chrono::steady_clock::now();
     previous_.swap(contacts);
     contacts.clear();
@@ -163,7 +167,8 @@ void ContactFinder::readBorders(State& state)
             rebuildGrid(state, body), read_[handle] |= kGrid;
         read_[handle] |= kCorners;
     };
-    for (const BodyPair& pair : pairs_) read(pair.a, pair.b), read(pair.b, pair.a);
+    for (const BodyPair& pair : pairs_)
+        if (!state.atRest(pair.a, pair.b)) read(pair.a, pair.b), read(pair.b, pair.a);
 }
 
 /// A body that a much faster one may hit gets the faster one's reach: within this very step it may have to be stopped
@@ -202,7 +207,7 @@ void ContactFinder::splitPairs(const State& state, double dt)
 {
     const auto wide = [&](const BodyPair& pair) {
         return state.bodies[pair.a].wide && state.bodies[pair.b].wide && !state.filters[pair.a].isOneSided() &&
-               !state.filters[pair.b].isOneSided() && isSlow(state, pair, dt);
+               !state.filters[pair.b].isOneSided() && (state.atRest(pair.a, pair.b) || isSlow(state, pair, dt));
     };
     for (Index body = 0; body < state.bodies.size(); ++body)
         if (meetsItself(state.bodies[body])) pairs_.push_back({body, body});
@@ -225,6 +230,7 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
         const BodyRecord &a = state.bodies[pair.a], &b = state.bodies[pair.b];
         if (!settings.materials[static_cast<std::size_t>(a.material) * settings.materialCount + b.material].collides)
             continue;
+        if (state.atRest(pair.a, pair.b)) continue;
         const ContactPoint pattern = patternOf(a, b, settings);
         if (pair.a == pair.b) {
             if (a.soft->matter.selfCollision) narrow.collideSelf(pair.a, pattern, contacts);
@@ -237,6 +243,7 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
         decideSide(state, pair.a, pair.b, previous, first, contacts);
         decideSide(state, pair.b, pair.a, previous, first, contacts);
     }
+    keepResting(state, settings, previous, contacts);
     // A point inside may have been found twice at one wall: once at its front, once to be pushed out; the latter
     // counts.
     std::sort(contacts.begin(), contacts.end(), [](const ContactPoint& p, const ContactPoint& q) {
@@ -245,6 +252,21 @@ void ContactFinder::collidePairs(const State& state, const WorldSettings& settin
     contacts.erase(std::unique(contacts.begin(), contacts.end(),
                                [](const ContactPoint& p, const ContactPoint& q) { return p.key() == q.key(); }),
                    contacts.end());
+}
+
+/// Of bodies that rest nothing is sought: their contacts are those they had.
+void ContactFinder::keepResting(const State& state, const WorldSettings& settings,
+                                std::span<const ContactPoint> previous, std::vector<ContactPoint>& contacts) const
+{
+    for (const ContactPoint& c : previous) {
+        if (!state.atRest(c.bodyA, c.bodyB)) continue;
+        ContactPoint kept = patternOf(state.bodies[c.bodyA], state.bodies[c.bodyB], settings);
+        kept.point = c.point, kept.wall = c.wall, kept.bodyA = c.bodyA, kept.bodyB = c.bodyB;
+        kept.inside = c.inside, kept.engaged = c.engaged, kept.active = c.active, kept.along = c.along;
+        kept.normalImpulse = c.normalImpulse, kept.tangentImpulse = c.tangentImpulse;
+        kept.stepImpulse = c.stepImpulse;
+        contacts.push_back(kept);
+    }
 }
 
 /// What a one-sided platform is to the other body: contacts from `first` on that do not hold it are dropped. It holds
@@ -378,7 +400,7 @@ bool ContactFinder::strayed(const State& state, double elapsed)
     const Nodes& nodes = state.nodes;
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
-        if (body.fixed || body.flown || body.points.count == 0) continue;
+        if (body.fixed || body.flown || body.asleep || body.points.count == 0) continue;
         const Index n = body.nodes.first;
         const double off = clouds_->farthest(nodes.position[n].data(), position_[n].data(), velocity_[n].data(),
                                              elapsed, body.nodes.count);

@@ -11,9 +11,11 @@ class ContactFinder {
 public:
     void use(const soft::CloudKernels& kernels) { clouds_ = &kernels; }
 
-    /// Contacts that serve the coming `dt` seconds, in ascending order of (point, wall). `first`: of the step; points
-    /// and readings are those of the nodes then.
-    void find(State&, const WorldSettings&, double dt, bool first, std::vector<ContactPoint>& contacts, StepStats&);
+    /// Which bodies may meet in the coming `dt` seconds: nearPairs(). `first`: of the step; points and readings are
+    /// those of the nodes then.
+    void seek(State&, const WorldSettings&, double dt, bool first, StepStats&);
+    /// Then the contacts that serve those seconds, in ascending order of (point, wall). Those of what rests are kept.
+    void find(State&, const WorldSettings&, double dt, std::vector<ContactPoint>& contacts, StepStats&);
     /// Appends those contacts the last find() dropped that had pushed in this step: they are over, but they happened.
     void collectEnded(std::span<const ContactPoint> contacts, std::vector<ContactPoint>& ended) const;
     /// Has a body moved, since find(), further from its prediction than its contacts allow for? `elapsed`: seconds.
@@ -28,6 +30,18 @@ public:
 
     // Of the last find():
     const std::vector<Motion>& motions() const { return motions_; }
+    /// Calls visit(body, body) for each pair with a body that is not simple, and different bodies.
+    template <class Visit>
+    void eachNear(Visit&& visit) const
+    {
+        for (const std::vector<BodyPair>* list : {&pairs_, &softPairs_})
+            for (const BodyPair& pair : *list)
+                if (pair.a != pair.b) visit(pair.a, pair.b);
+    }
+    /// Was the body's reach made wider, for what may hit it?
+    bool expectsHit(Index body) const { return body < motions_.size() && motions_[body].surprise > 0; }
+    /// Nothing may meet.
+    void clear() { pairs_.clear(), softPairs_.clear(); }
     /// Pairs with a body that is not simple, but for those of softPairs().
     const std::vector<BodyPair>& pairs() const { return pairs_; }
     /// [nodes] where they were; nothing where nothing could meet.
@@ -41,6 +55,8 @@ public:
 private:
     bool isSlow(const State&, const BodyPair&, double dt) const;
     void splitPairs(const State&, double dt);
+    void keepResting(const State&, const WorldSettings&, std::span<const ContactPoint>,
+                     std::vector<ContactPoint>&) const;
     bool expectHits(const State&, double dt);
     void readBorders(State&);
     void predict(const State&, const WorldSettings&, double dt);

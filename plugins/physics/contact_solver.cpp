@@ -185,11 +185,7 @@ bool ContactSolver::decideActive(ContactPoint& c, double wallLength, double slid
 
 /// Nothing weighs on what sleeps, so a contact would push it away from what stands; there each substep is like the
 /// last.
-bool ContactSolver::rests(const ContactPoint& c) const
-{
-    const BodyRecord &a = state_.bodies[c.bodyA], &b = state_.bodies[c.bodyB];
-    return (a.asleep && (b.asleep || b.fixed)) || (b.asleep && a.fixed);
-}
+bool ContactSolver::rests(const ContactPoint& c) const { return state_.atRest(c.bodyA, c.bodyB); }
 
 void ContactSolver::prepare()
 {

@@ -193,9 +193,11 @@ void ForceFields::act(State& state, const RigidStage& rigid, const Field& field,
     const Nodes& nodes = state.nodes;
     Pull pull{state, field, body, weight, h};
     const Index first = body.nodes.first;
-    if (!body.rigid) {
+    if (body.asleep) {
+        return;
+    } else if (!body.rigid) {
         for (Index n = first; n < body.nodes.end(); ++n) pull.atIfCovered(n, nodes.position[n], nodes.mass[n]);
-    } else if (body.asleep || nodes.invMass[first] == 0) {
+    } else if (nodes.invMass[first] == 0) {
         return;
     } else if (rigid.has(handle)) {
         actOnSurface(pull, rigid.convexPartsOf(handle));

@@ -3,6 +3,8 @@
 #include "soft/mass_sums.hpp"
 #include "speed_limit.hpp"
 
+#include <algorithm>
+
 namespace jet::physics {
 
 namespace {
@@ -34,6 +36,10 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
         const Index first = body.nodes.first;
         if (body.nodes.count == 0) continue;
         if (!body.rigid) {
+            if (body.asleep) {  // one of several that are computed together may have been accelerated
+                std::fill_n(nodes.velocity.begin() + first, body.nodes.count, Vec2(0, 0));
+                continue;
+            }
             if (!springs.isWide(handle))
                 springs.kernels().accelerate(nodes.velocity[first].data(),
                                              anyForces ? nodes.force[first].data() : nullptr, &nodes.invMass[first],
@@ -75,7 +81,7 @@ void integratePositions(State& state, const SoftSprings& springs, double h)
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
         const Index first = body.nodes.first;
-        if (body.nodes.count == 0 || body.fixed || body.kinematic || body.flown) continue;
+        if (body.nodes.count == 0 || body.fixed || body.kinematic || body.flown || (body.asleep && body.soft)) continue;
         if (!body.rigid) {
             springs.advance(state, handle, h);
             continue;

@@ -144,7 +144,8 @@ bool ShapeMemory::forgets(const State& state, const Lattice& lattice)
 void ShapeMemory::look(State& state, double dt)
 {
     for (Lattice& lattice : lattices_)
-        if (!state.bodies[lattice.body].flown) lattice.relaxed = relaxes(state, lattice, dt);
+        if (!state.bodies[lattice.body].flown && !state.bodies[lattice.body].asleep)
+            lattice.relaxed = relaxes(state, lattice, dt);
 }
 
 bool ShapeMemory::relaxes(State& state, Lattice& lattice, double dt)
@@ -170,7 +171,9 @@ void ShapeMemory::apply(State& state, const SoftSprings& springs, double h, std:
         return (lattice.nodes.empty() && offs[lattice.body] <= lattice.tolerance) || forgets(state, lattice);
     };
     for (Lattice& lattice : lattices_) {
-        if (state.bodies[lattice.body].flown || isRelaxed(lattice) || springs.anyTorn(lattice.body)) continue;
+        if (state.bodies[lattice.body].flown || state.bodies[lattice.body].asleep || isRelaxed(lattice) ||
+            springs.anyTorn(lattice.body))
+            continue;
         const soft::Cloud cloud = cloudOf(state, lattice);
         const Motion motion = match(cloud, lattice);
         lattice.rotation = Vec2(motion.rigid.c, motion.rigid.s);

@@ -80,9 +80,10 @@ struct SoftSprings::Corner {
 };
 
 void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf,
-                             Index place)
+                             Index body, Index place)
 {
     Angular spring;
+    spring.body = body;
     spring.a = nodeOf[def.a], spring.centre = nodeOf[def.centre], spring.b = nodeOf[def.b];
     spring.restAngle = def.restAngle, spring.ks = def.ks, spring.kd = def.kd;
     const Corner corner(state, spring);
@@ -107,8 +108,10 @@ double SoftSprings::energy(const State& state, const Angular& spring, double h)
 
 void SoftSprings::applyAngular(State& state, double h, bool backwards)
 {
-    for (std::size_t i = 0; i < angular_.size(); ++i)
-        applyAngularSpring(state, angular_[backwards ? angular_.size() - 1 - i : i], h);
+    for (std::size_t i = 0; i < angular_.size(); ++i) {
+        Angular& spring = angular_[backwards ? angular_.size() - 1 - i : i];
+        if (spring.a != kNone && !state.bodies[spring.body].asleep) applyAngularSpring(state, spring, h);
+    }
 }
 
 void SoftSprings::addAngularForces(State& state)

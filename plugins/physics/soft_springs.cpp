@@ -68,7 +68,7 @@ void SoftSprings::add(const State& state, const SoftBodyDef& def, BodyHandle bod
         arranged_ = false;
     }
     Index place = state.bodies[body].soft->angularSprings.first;
-    for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf, place++);
+    for (const AngularSpringDef& spring : def.angularSprings) addAngular(state, spring, nodeOf, body, place++);
 }
 
 /// Its rows stay for another body's.
@@ -241,8 +241,8 @@ void SoftSprings::fillRests(const Mesh& mesh)
 
 void SoftSprings::addForces(State& state)
 {
-    for (Mesh& mesh : meshes_)
-        if (!mesh.wide) pullOneByOne(state, mesh);
+    for (Index body = 0; body < meshes_.size(); ++body)
+        if (!meshes_[body].wide && !state.bodies[body].asleep) pullOneByOne(state, meshes_[body]);
 }
 
 soft::Planes SoftSprings::planes(const soft::Batch& batch, Room& room)
@@ -256,7 +256,9 @@ void SoftSprings::accelerate(State& state, double h, const Vec2& gravity, double
 {
     drift_.resize(state.bodies.size(), Vec2(0, 0));
     double* force = pushed ? state.nodes.force.values().data()->data() : nullptr;
+    const auto asleep = [&](Index body) { return state.bodies[body].asleep; };
     for (soft::Batch& batch : batches_) {
+        if (std::all_of(batch.bodies.begin(), batch.bodies.end(), asleep)) continue;
         if (batch.alike()) {
             accelerateAlike(state, batch, h, gravity, kept, force);
         } else if (!state.bodies[batch.bodies.front()].flown) {
@@ -493,7 +495,7 @@ void SoftSprings::flow(const State& state, double dt, double h)
     const Nodes& nodes = state.nodes;
     for (Index body = 0; body < meshes_.size(); ++body) {
         Mesh& mesh = meshes_[body];
-        if (mesh.springs.count == 0 || !state.bodies[body].enabled) continue;
+        if (mesh.springs.count == 0 || !state.bodies[body].enabled || state.bodies[body].asleep) continue;
         const SoftMatter& matter = state.bodies[body].soft->matter;
         if (!(matter.yield > 0)) continue;
         const double part = 1 - decay(matter.creep * dt);

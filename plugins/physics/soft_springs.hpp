@@ -15,6 +15,8 @@
 #include "state.hpp"
 #include "stiffness.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -42,11 +44,26 @@ public:
 
     /// Replaces the stiffness, damping and tear ratio of all springs of the body, until it is restored to before.
     void set(Index body, double ks, double kd, double tearRatio);
+    /// Would that change nothing?
+    bool isSet(Index body, double ks, double kd, double tearRatio) const
+    {
+        const Mesh& mesh = meshes_[body];
+        return mesh.uniform && mesh.ks == ks && mesh.kd == kd && mesh.tearRatio == std::max(tearRatio, 0.0);
+    }
     /// What the spring pulls with as the nodes are, in single springs' own stiffness; 0 when torn.
     double tension(const State&, Index body, Index spring) const;
     /// What the springs and angular springs of a soft body hold, torn ones nothing: ½ ks e e', e the strain now, e'
     /// before the last move over h.
     double energy(const State&, Index body, double h) const;
+    /// What says how slowly a body may move by itself.
+    struct Slowest {
+        double ks = std::numeric_limits<double>::infinity();  // least of its springs, force / unit
+        double fade =
+            std::numeric_limits<double>::infinity();  // least ks / kd, 1 / s: how fast what is damped comes to rest
+    };
+    Slowest slowest(Index body) const;
+    /// Does plasticity change the body as it is?
+    bool flows(const State&, Index body) const;
     /// Plasticity: lets springs that are strained beyond the yield of their body flow, over a step of dt
     /// whose substeps take h.
     void flow(const State&, double dt, double h);
@@ -115,6 +132,7 @@ private:
         double restAngle = 0, ks = 0, kd = 0;
         double angle = 0;           // unwrapped: continues through ±pi
         double restCompliance = 0;  // sum of |grad angle|² / m at rest
+        Index body = kNone;
         double stiffness = 0;       // ks after softening
         double damping = 0;         // kd and what softening adds
     };
@@ -138,7 +156,8 @@ private:
         double provenRate = 0;     // substeps / s that were proven to suffice, besides the bounds; 0: none
     };
 
-    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf, Index place);
+    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf, Index body,
+                    Index place);
     void dropUnusedKinds();
     double stiffnessOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.ks : kindOf(i).ks; }
     double dampingOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.kd : kindOf(i).kd; }

@@ -205,4 +205,42 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
     }
 }
 
+SoftSprings::Slowest SoftSprings::slowest(Index body) const
+{
+    const Mesh& mesh = meshes_[body];
+    Slowest slowest;
+    const auto fades = [&](double ks, double kd) {
+        if (kd > 0) slowest.fade = std::min(slowest.fade, ks / kd);
+    };
+    const auto count = [&](double ks, double kd) {
+        if (ks > 0) slowest.ks = std::min(slowest.ks, ks);
+        fades(ks, kd);
+    };
+    if (mesh.uniform) {
+        if (mesh.springs.count > 0) count(mesh.ks, mesh.kd);
+    } else {
+        for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
+            if (alive_[i]) count(kindOf(i).ks, kindOf(i).kd);
+    }
+    for (const Angular& spring : angular_)
+        if (spring.body == body) fades(spring.ks, spring.kd);
+    return slowest;
+}
+
+bool SoftSprings::flows(const State& state, Index body) const
+{
+    constexpr double kLeast = 1e-6;  // of strain: what would flow no further
+    const SoftMatter& matter = state.bodies[body].soft->matter;
+    if (!(matter.yield > 0) || !(matter.creep > 0)) return false;
+    const Mesh& mesh = meshes_[body];
+    for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i) {
+        if (!alive_[i] || !(rest_[i] > 0)) continue;
+        const double strain = (state.nodes.position[a_[i]] - state.nodes.position[b_[i]]).norm() / rest_[i] - 1;
+        if (!(std::abs(strain) > matter.yield + kLeast)) continue;
+        const double drawn = drawn_.empty() ? rest_[i] : drawn_[i], most = matter.mostFlow * drawn;
+        if (strain > 0 ? rest_[i] < drawn + most : rest_[i] > drawn - most) return true;
+    }
+    return false;
+}
+
 }  // namespace jet::physics

@@ -108,7 +108,9 @@ std::size_t bytesOf(const State& state)
                readings.firstPoint) +
         roomOf(state.bodies);
     for (const BodyRecord& body : state.bodies)
-        if (body.soft) sum += sizeof(SoftRecord) + roomOf(body.soft->pieces, body.soft->restArms);
+        if (body.soft)
+            sum += sizeof(SoftRecord) +
+                   roomOf(body.soft->pieces, body.soft->restArms, body.soft->watch.places, body.soft->watch.speeds);
     return sum;
 }
 

@@ -82,6 +82,15 @@ struct Range {
     Index end() const { return first + count; }
 };
 
+/// How a soft body moved between the last looks at it: slumber.hpp.
+struct RestWatch {
+    bool mayRest = true, drawnMayRest = true;
+    std::uint8_t looks = 0;     // 1: places are known; 2: speeds, too; 3: it was still
+    float speed = 0;            // units / s, at which it may come away from them
+    std::vector<Vec2> places;   // [nodes] at the last look
+    std::vector<float> speeds;  // [2 nodes] mean before it, units / s
+};
+
 /// What only soft bodies have.
 struct SoftRecord {
     SoftMatter matter;
@@ -96,6 +105,7 @@ struct SoftRecord {
     Vec2 twinTurn = Vec2(1, 0);         // (cos, sin) of the twin's angle; stays while no angle fits better than others
     double twinRate = 0, twinLoss = 0;  // as soft/twins.hpp prepared them for the substep at hand
     double restGyrationSquared = 0;     // of the shape at rest, units²
+    RestWatch watch;
     Vec2 fit = Vec2(0, 0);  // (sum m q·p, sum m q×p) as last read, q at rest and p now from the centre: see CloudSums
 
     /// (cos, sin) of the angle by which the shape at rest fits best; null where no angle fits better than others, as
@@ -118,9 +128,10 @@ struct BodyRecord {
     bool enabled : 1 = true;     // may move, meet and be seen
     bool drives : 1 = false;     // kinematic while it is enabled
     bool fixedRotation : 1 = false;
-    bool asleep : 1 = false;   // rigid: rests, and is left out until something wakes it
+    bool asleep : 1 = false;  // rests, and is left out until something wakes it
+    bool stands : 1 = false;  // as of this step: fixed, or kinematic and not moving
     bool removed : 1 = false;  // its place is free for another
-    bool flown : 1 = false;    // soft: nothing else acts on it, and it has been moved for all of the step at hand
+    bool flown : 1 = false;   // soft: nothing else acts on it, and it has been moved for all of the step at hand
     Index material = 0;
     std::uint32_t layer = 1;
     Range nodes, points, walls;
@@ -213,6 +224,20 @@ struct State {
         if (filter == std::as_const(filters)[body]) return;
         filters.cover(body + 1);
         filters[body] = filter;
+    }
+    /// Does one of them sleep, and the other sleep or stand? Then nothing happens between them.
+    bool atRest(Index a, Index b) const
+    {
+        const BodyRecord &first = bodies[a], &second = bodies[b];
+        return (first.asleep && (second.asleep || second.stands)) || (second.asleep && first.stands);
+    }
+    /// Is it kinematic, and under way?
+    bool isDriven(const BodyRecord& body) const
+    {
+        if (!body.kinematic) return false;
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+            if (nodes.velocity[n] != Vec2(0, 0) || nodes.omega[n] != 0) return true;
+        return false;
     }
     Vec2 pointNow(Index point) const
     {

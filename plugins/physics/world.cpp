@@ -20,6 +20,7 @@ World::World(const WorldSettings& settings) : settings_(settings)
     state_.clouds = &clouds;
     softContacts_.use(avx2 ? soft::avx2::contacts : soft::sse2::contacts);
     queries_.use(rigid_);
+    rigid_.onWaking([this] { spreadWaking(false); });
     keepMark();
     pairsOf_ = tableMark_;
 }
@@ -137,6 +138,8 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
     body.length = typicalLength(region, bounds);
     soft.restArea = region.area;
     soft.matter = def.matter;
+    soft.watch.mayRest = soft.watch.drawnMayRest = def.common.allowSleep;
+    softMovers_ += !body.fixed;
     body.wide = soft::fitsContacts(state_, body);
 
     soft.springs = {springs_.springCount(), static_cast<Index>(def.springs.size())};
@@ -260,6 +263,7 @@ BodyHandle World::finishBody(BodyHandle handle, const BodyCommon& common)
     reread(handle);
     setVelocity(handle, common.velocity);
     setOmega(handle, common.omega);
+    if (common.fixed || common.kinematic) stir(handle);
     return handle;
 }
 
@@ -297,7 +301,7 @@ ActuatorHandle World::addTorque(const TorqueActuatorDef& def)
 ActuatorHandle World::addForceField(const ForceFieldDef& def)
 {
     checks().check(fields_.count(), def);
-    rigid_.wakeAll(state_);
+    wakeAll();
     const ActuatorHandle field = fields_.add(def);  // may refuse its region
     structure_.add(def);
     return field;

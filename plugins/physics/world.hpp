@@ -10,6 +10,7 @@
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
 #include "slots.hpp"
+#include "slumber.hpp"
 #include "soft/accounts.hpp"
 #include "soft/contacts.hpp"
 #include "soft/joints.hpp"
@@ -151,8 +152,19 @@ private:
     void wakeHeld(const Anchor&);
     /// It was moved from outside: it wakes, and so does what rests on it.
     void rouse(BodyHandle);
-    void wakeBesideSoft();
+    void wakeUp(BodyHandle);
+    void wakeAll();
+    void stir(BodyHandle);
+    bool anyAsleep() const { return slumber_.any() || rigid_.anyAsleep(); }
+    /// May it wake others?
+    bool comesNear(Index body) const;
+    void spreadWaking(bool midst);
+    Bonds bondsOfRigid() const;
     void restIfDue(double dt);
+    void restTogether();
+    void nameIslands();
+    bool nothingMoves() const;
+    void noteStanding();
     /// After restoring a state of another table of materials: whom bodies meet is found afresh.
     void heedMaterials();
     void keepMark();
@@ -196,6 +208,8 @@ private:
     }
     template <class Self, class Archive>
     static void archive(Self& self, Archive& with);
+    template <class Self, class Archive>
+    static void archiveSlumber(Self& self, Archive& with);
 
     WorldSettings settings_;
     State state_;
@@ -217,6 +231,14 @@ private:
     bool jointsRemoved_ = false;  // may any of them have been?
     soft::Tears tears_;
     RigidStage rigid_;
+    Slumber slumber_;
+    /// Scratch of restTogether().
+    struct Resting {
+        std::vector<Index> group, firstRigid, root;  // [bodies]
+        std::vector<std::uint8_t> restless, soft;    // [bodies]
+        Bonds bonds;
+    };
+    Resting resting_;
     Queries queries_;
     Column<double> gyrations_{1};  // [bodies] units, of rigid ones that rigid_ does not have; up to the last of them
     bool lean_ = true;             // nothing has needed the points and walls of bodies of one shape
@@ -226,6 +248,7 @@ private:
     bool settled_ = false;                 // has it been stepped?
     bool stale_ = false;                   // points and readings are older than the nodes
     bool untold_ = false;                  // so are the reports
+    Index softMovers_ = 0;                 // soft bodies that are not fixed
     Index complex_ = 0;                    // bodies that go by points and walls
     std::vector<ContactPoint> ended_;      // pushed in this step, but are over
     Column<Vec2> stepForces_{Vec2(0, 0)};  // [nodes] of applyForce, for the next step only; no rows before the first

@@ -38,7 +38,7 @@ void World::setTorque(ActuatorHandle torque, double value)
     requireActuator(ActuatorKind::Torque, torque);
     checks().number(named("torque", torque), "value", value);
     const Index body = actuators_.bodyOfTorque(torque);
-    if (body != kNone && actuators_.torque(torque) != value) rigid_.wake(state_, body);
+    if (body != kNone && actuators_.torque(torque) != value) wakeUp(body);
     actuators_.setTorque(torque, value);
 }
 
@@ -47,7 +47,7 @@ void World::setForce(ActuatorHandle force, const Vec2& value)
     requireActuator(ActuatorKind::Force, force);
     checks().number(named("force", force), "value", value);
     const Index body = actuators_.bodyOfForce(force);
-    if (body != kNone && actuators_.force(force) != value) rigid_.wake(state_, body);
+    if (body != kNone && actuators_.force(force) != value) wakeUp(body);
     actuators_.setForce(force, value);
 }
 
@@ -59,7 +59,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
     if (force == Vec2(0, 0)) return;
     pushed_ = true;
     stepForces_.cover(state_.nodes.size());
-    rigid_.wake(state_, handle);
+    wakeUp(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         stepForces_[n] += state_.nodes.mass[n] / state_.massOf(body) * force;
 }
@@ -70,7 +70,7 @@ void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
     checks().number(named("body", handle), "impulse", impulse);
     refresh();
     const BodyRecord& body = state_.bodies[handle];
-    if (impulse != Vec2(0, 0)) rigid_.wake(state_, handle);
+    if (impulse != Vec2(0, 0)) wakeUp(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
         if (state_.nodes.invMass[n] > 0) state_.nodes.velocity[n] += impulse / state_.massOf(body);
     reread(handle);
@@ -131,7 +131,7 @@ void World::setPosition(BodyHandle handle, const Vec2& centre)
 void World::setGravity(const Vec2& gravity)
 {
     checks().number("the world", "gravity", gravity);
-    if (gravity != settings_.gravity) rigid_.wakeAll(state_);
+    if (gravity != settings_.gravity) wakeAll();
     settings_.gravity = gravity;
 }
 
@@ -203,6 +203,20 @@ void World::archive(Self& self, Archive& with)
         with(c.penetration), with(c.impulse);
     });
     with.list(self.touching_, [&](std::uint64_t& pair) { with(pair); });
+    archiveSlumber(self, with);
+}
+
+/// Last, and only where there is something to tell.
+template <class Self, class Archive>
+void World::archiveSlumber(Self& self, Archive& with)
+{
+    if constexpr (std::is_same_v<Archive, RestoreArchive>) {
+        if (with.finished()) return self.slumber_.makeFresh(self.state_);
+    } else if (self.slumber_.isFresh(self.state_)) {
+        return;
+    }
+    self.slumber_.archive(with, self.state_);
+    for (ContactPoint& c : self.contacts_.points) with(c.inside);  // where nothing is sought, as all rests
 }
 
 namespace {
@@ -283,7 +297,7 @@ void World::restore(std::span<const std::byte> bytes)
         if (!archiveIn.finished()) RestoreArchive::fail();
         for (const ContactPoint& c : contacts_.points)
             if (c.point >= state_.points.size() || c.wall >= state_.walls.size()) RestoreArchive::fail();
-        if (!softContacts_.fits(state_)) RestoreArchive::fail();
+        if (!softContacts_.fits(state_) || !slumber_.fits(state_)) RestoreArchive::fail();
         if (!moveInNumbers(state_.nodes))
             checks().fail("the saved state is damaged: a place or a speed in it is no number.");
         softContacts_.restored();

@@ -33,7 +33,7 @@ bool World::anyStepForce() const
 bool World::isLeftAlone(Index handle, double dt)
 {
     const BodyRecord& body = state_.bodies[handle];
-    if (body.fixed || body.kinematic || body.fixedRotation || !body.enabled) return false;
+    if (body.fixed || body.kinematic || body.fixedRotation || !body.enabled || body.asleep) return false;
     if (body.soft->angularSprings.count > 0 || body.hasTwin() || soft::holdsGas(body)) return false;
     if (settings_.applyDamping && settings_.angularDamping != 0) return false;
     return !softJoints_.holds(handle) && shapes_.relaxes(state_, handle, dt);

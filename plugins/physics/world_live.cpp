@@ -41,7 +41,7 @@ void World::heedMaterials()
 {
     if (tableMark_ == pairsOf_) return;
     pairsOf_ = tableMark_;
-    rigid_.wakeAll(state_);
+    wakeAll();
     rigid_.forgetPairs();
 }
 
@@ -56,7 +56,7 @@ void World::setSettings(const WorldSettings& wanted)
     if (settings.method == Method::SemiImplicitEuler) settings.substeps = 1;
     const bool kept = std::equal(settings.materials.begin(), settings.materials.end(), settings_.materials.begin(),
                                  [](const MaterialPair& a, const MaterialPair& b) { return isLike(a, b); });
-    if (!kept || !isLike(settings, settings_)) rigid_.wakeAll(state_);
+    if (!kept || !isLike(settings, settings_)) wakeAll();
     settings_ = std::move(settings);
     keepMark();
     heedMaterials();
@@ -81,7 +81,7 @@ void World::setMass(BodyHandle handle, double mass)
     }
     rate_ = -1;
     rigid_.disturb(handle);
-    rigid_.wake(state_, handle);
+    wakeUp(handle);
 }
 
 void World::setBody(BodyHandle handle, const BodyCommon& common)
@@ -96,7 +96,7 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
     if (body.material == common.material && body.gravityScale == common.gravityScale && body.sensor == common.sensor &&
         body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter::of(common) &&
         body.drives == (common.kinematic && !common.fixed) && body.fixedRotation == common.fixedRotation &&
-        rigid_.isSet(handle, common))
+        (body.soft ? body.soft->watch.mayRest == common.allowSleep : rigid_.isSet(handle, common)))
         return;
     reportIfAsked();  // of what it was
     body.material = common.material, body.gravityScale = common.gravityScale;
@@ -104,13 +104,14 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
     state_.setFilter(handle, Filter::of(common));
     const bool held = isHeld(body);
     body.drives = common.kinematic && !common.fixed, body.fixedRotation = common.fixedRotation;
+    stir(handle);
+    wakeUp(handle);
     if (body.rigid) {
-        rigid_.stir(state_, handle);
-        rigid_.wake(state_, handle);
         applyMotion(handle);
         if (body.fixedRotation && !body.drives) state_.nodes.omega[body.nodes.first] = 0;
         rigid_.set(state_, handle, common);
     } else {
+        body.soft->watch.mayRest = common.allowSleep;
         holdSoft(body, held);
     }
     reread(handle);
@@ -124,8 +125,8 @@ void World::setEnabled(BodyHandle handle, bool enabled)
     BodyRecord& body = state_.bodies[handle];
     if (body.enabled == enabled) return;
     reportIfAsked();  // of what it was
-    rigid_.stir(state_, handle);
-    rigid_.wake(state_, handle);
+    stir(handle);
+    wakeUp(handle);
     const bool held = isHeld(body);
     body.enabled = enabled;
     Nodes& nodes = state_.nodes;

@@ -57,14 +57,14 @@ void World::requireActuator(ActuatorKind kind, ActuatorHandle handle) const
 
 void World::wakeHeld(ActuatorKind kind, ActuatorHandle handle)
 {
-    actuators_.eachHeld(kind, handle, [&](Index body) { rigid_.wake(state_, body); });
+    actuators_.eachHeld(kind, handle, [&](Index body) { wakeUp(body); });
 }
 
 void World::removeActuator(ActuatorKind kind, ActuatorHandle handle)
 {
     requireActuator(kind, handle);
     if (kind == ActuatorKind::ForceField) {
-        rigid_.wakeAll(state_);
+        wakeAll();
         fields_.remove(handle);
     } else {
         wakeHeld(kind, handle);
@@ -161,6 +161,8 @@ void World::removeBody(BodyHandle handle)
     if (!pinsWhileHeld_.empty())
         std::fill_n(pinsWhileHeld_.begin() + body.nodes.first, body.nodes.count, std::uint8_t{0});
     if (body.soft) {
+        slumber_.disturb(state_, handle);
+        softMovers_ -= !body.fixed;
         tears_.forget(state_, handle);
         springs_.remove(handle);
         shapes_.remove(handle);

@@ -82,7 +82,7 @@ StepStats World::stats() const
     if (settings_.allowSleep) islands();
     StepStats stats = stats_;
     stats.memory = bytesOf(state_) + rigid_.bytes() + queries_.bytes() + softContacts_.bytes() + softJoints_.bytes() +
-                   accounts_.bytes() + tears_.bytes() + reports_.capacity() * sizeof(Contact) +
+                   accounts_.bytes() + slumber_.bytes() + tears_.bytes() + reports_.capacity() * sizeof(Contact) +
                    islands_.capacity() * sizeof(Index);
     return stats;
 }
@@ -152,7 +152,11 @@ void World::setMotor(JointHandle handle, bool driven, double speed)
     const JointAt at = jointAt(handle);
     checks().number(named("joint", handle), "motor speed", speed);
     handle = at.index;
-    if (at.soft) return softJoints_.setMotor(at.index, driven, speed);
+    if (at.soft) {
+        const JointDef& def = softJoints_.def(at.index);
+        if (def.driven != driven || def.motorSpeed != speed) wakeHeld(def);
+        return softJoints_.setMotor(at.index, driven, speed);
+    }
     const JointDef& def = rigid_.joint(handle).def;
     if (def.driven != driven || def.motorSpeed != speed) wakeHeld(def);
     rigid_.setMotor(handle, driven, speed);
@@ -163,7 +167,7 @@ void World::setJointTarget(JointHandle handle, const Vec2& target)
     const JointAt at = jointAt(handle);
     const std::string item = named("joint", handle);
     checks().place(item, "target", target);
-    if (at.soft && softJoints_.setTarget(at.index, target)) return;
+    if (at.soft && softJoints_.setTarget(at.index, target)) return wakeHeld(softJoints_.def(at.index));
     if (at.soft) checks().fail(item + ": only a joint with the background has a target.");
     const Joint& joint = rigid_.joint(at.index);
     if (joint.a != 0 && joint.b != 0) checks().fail(item + ": only a joint with the background has a target.");

@@ -4,6 +4,7 @@
 #include "world.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace jet::physics {
 
@@ -14,6 +15,15 @@ namespace {
     throw Failure(Error("Physics: body " + std::to_string(handle) + " is rigid; only soft bodies have springs."));
 }
 
+bool isLike(const SoftMatter& a, const SoftMatter& b)
+{
+    const auto parts = [](const SoftMatter& is) {
+        return std::tie(is.thickness, is.pressure, is.areaStiffness, is.shapeStiffness, is.shapeDamping, is.yield,
+                        is.creep, is.mostFlow, is.selfCollision);
+    };
+    return parts(a) == parts(b);
+}
+
 }  // namespace
 
 void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
@@ -22,7 +32,7 @@ void World::setForceField(ActuatorHandle field, const ForceFieldDef& def)
     checks().check(field, def);
     if (fields_.isSet(field, def)) return;
     fields_.set(field, def);
-    rigid_.wakeAll(state_);
+    wakeAll();
 }
 
 BodyRecord& World::softBody(BodyHandle handle)
@@ -84,6 +94,7 @@ void World::setSoftMatter(BodyHandle handle, const SoftMatter& matter)
 {
     checks().check(handle, matter);
     SoftMatter& own = softBody(handle).soft->matter;
+    if (!isLike(own, matter)) stir(handle), wakeUp(handle);
     if (own.shapeStiffness != matter.shapeStiffness || own.shapeDamping != matter.shapeDamping) rate_ = -1;
     own = matter;
 }
@@ -92,6 +103,8 @@ void World::setSprings(BodyHandle handle, double ks, double kd, double tearRatio
 {
     softBody(handle);
     checks().spring(named("body", handle), ks, kd, tearRatio);
+    if (springs_.isSet(handle, ks, kd, tearRatio)) return;
+    wakeUp(handle);
     springs_.set(handle, ks, kd, tearRatio);
     rate_ = -1;
 }
@@ -107,6 +120,7 @@ void World::setPinned(BodyHandle handle, std::uint32_t particle, bool pinned)
         pinsWhileHeld_[node] = pinned;
         return;
     }
+    if ((nodes.invMass[node] == 0) != pinned) wakeUp(handle);
     nodes.invMass[node] = pinned ? 0 : 1 / nodes.mass[node];
     if (pinned) nodes.velocity[node] = Vec2(0, 0);
     reread(handle);

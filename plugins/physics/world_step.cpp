@@ -87,6 +87,8 @@ void World::stepPart(double dt)
     if (onlySimple()) return stepSimple(dt);
     const Sharing sharing(state_, rigid_.pool(), settings_.threads);
     refresh();
+    slumber_.drowsy() = false;
+    noteStanding();
     wholes_.gather(state_);
     prepareStiffness();
     const bool plain = settings_.method == Method::SemiImplicitEuler;
@@ -115,25 +117,31 @@ void World::stepPart(double dt)
     for (int i = 0; i < count; ++i) {
         const double now = i * h;
         if (!settings_.findCollisions) {
+            finder_.clear();
             contacts_.points.clear();
             contacts_.begin(state_);
             softContacts_.clear();
         } else if (i == 0 || finder_.strayed(state_, now - soughtAt)) {
             if (i == 0) {
-                finder_.find(state_, settings_, dt, true, contacts_.points, stats_);
+                finder_.seek(state_, settings_, dt, true, stats_);
+                spreadWaking(false);
+                rigid_.begin(state_, settings_, h, dt, stats_);
+                finder_.find(state_, settings_, dt, contacts_.points, stats_);
                 for (ContactPoint& c : contacts_.points) c.stepImpulse = 0;
             } else {
                 softContacts_.travel(state_, finder_.positions());
-                finder_.find(state_, settings_, dt - now, false, contacts_.points, stats_);
+                finder_.seek(state_, settings_, dt - now, false, stats_);
+                spreadWaking(true);
+                finder_.find(state_, settings_, dt - now, contacts_.points, stats_);
                 finder_.collectEnded(contacts_.points, ended_);
             }
             contacts_.begin(state_);
             softContacts_.find(state_, settings_, finder_.motions(), finder_.softPairs(), dt - now, i == 0);
             soughtAt = now;
         }
-        if (i == 0 && settings_.findCollisions) wakeBesideSoft();
-        if (i == 0) rigid_.begin(state_, settings_, h, dt, stats_);
+        if (i == 0 && !settings_.findCollisions) rigid_.begin(state_, settings_, h, dt, stats_);
         if (i == 0) {
+            slumber_.stirred().clear();
             const Stopwatch watch(stats_.springsMs);
             flyFree(h, count);
         }
@@ -142,6 +150,7 @@ void World::stepPart(double dt)
             accounts_.open(accounted(h));
         }
         substep(h, i, count);
+        if (i == 2 * count / 5) slumber_.watchWithin(state_);
         if (i + 1 < count) continue;
         accounts_.close(accounted(h), i % soft::Accounts::kSubsteps + 1);
         rigid_.finish(state_, true);
@@ -149,14 +158,19 @@ void World::stepPart(double dt)
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;
     for (BodyRecord& body : state_.bodies) body.flown = false;
+    if (softJoints_.finish(state_, dt)) finder_.exclude(softJoints_.excluded());
     restIfDue(dt);
     springs_.flow(state_, dt, h);
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
-    if (softJoints_.finish(dt)) finder_.exclude(softJoints_.excluded());
     updatePoints(state_);
     if (!lean_) updateReadings(state_);
     untold_ = true;
     cutTorn();
+}
+
+void World::noteStanding()
+{
+    for (BodyRecord& body : state_.bodies) body.stands = body.fixed || (body.kinematic && !state_.isDriven(body));
 }
 
 /// What depends on which springs there are, worked out again only after something was added.

@@ -311,6 +311,29 @@ Outcome sleeping(const Lab& lab)
     return measured(slept, "s until it sleeps", 5);
 }
 
+/// Two soft balls: they rest, are left out, stay to the bit, and wake when they are hit.
+Outcome softSleeping(const Lab& lab)
+{
+    const auto world = lab.world({0, 100});
+    world->addRigidBody(ground(0));
+    const BodyHandle first = world->addSoftBody(softBall({0, -11}, 10, 400, 10, 16, 2));
+    const BodyHandle second = world->addSoftBody(softBall({60, -11}, 10, 400, 10, 16, 2));
+    double slept = -1;
+    for (int i = 0; i < 1800 && slept < 0; ++i) {
+        world->step(kStep);
+        if (!world->awake(first) && !world->awake(second)) slept = i * kStep;
+    }
+    if (slept < 0) return {Outcome::Verdict::Missing, 0, 0, {}, "no soft body falls asleep in 30 s"};
+    const Vec2 place = at(*world, first);
+    run(*world, 5);
+    if (at(*world, first) != place) return holds(false, "it moves while it sleeps");
+    world->applyImpulse(second, {-100, -20});
+    bool woken = false;
+    for (int i = 0; i < 300 && !woken; ++i) world->step(kStep), woken = world->awake(first);
+    if (!woken) return holds(false, "what is hit does not wake");
+    return measured(slept, "s until they sleep", 20);
+}
+
 Outcome overlap(const Lab& lab)
 {
     const auto world = lab.world({0, 100});
@@ -347,7 +370,8 @@ std::vector<Check> contactChecks()
             {"contacts", "order of contact events, soft bodies", [](const Lab& lab) { return events(lab, true); }},
             {"contacts", "contact records", contactRecords},
             {"contacts", "impulses of hits", hitImpulses},
-            {"contacts", "sleeping and waking", sleeping}};
+            {"contacts", "sleeping and waking", sleeping},
+            {"contacts", "soft bodies sleep", softSleeping}};
 }
 
 }  // namespace jet::conformance

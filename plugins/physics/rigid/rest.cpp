@@ -34,7 +34,7 @@ bool RigidStage::driven(Index body, const State& state) const
 
 bool RigidStage::allAsleep(const State& state) const
 {
-    return sleepers_ > 0 && sleepers_ == movers_ && !woke_ && !drowsy_ && ended_.empty() && !collider_.restless() &&
+    return sleepers_ == movers_ && !woke_ && !drowsy_ && ended_.empty() && !collider_.restless() &&
            std::none_of(kinematic_.begin(), kinematic_.end(), [&](Index body) { return driven(body, state); });
 }
 

@@ -189,6 +189,7 @@ void RigidStage::refresh(Solver<Real>& solver, State& state, const WorldSettings
         if (collider_.roused().empty()) return;
         for (const Index body : collider_.roused()) wakeGroup(state, group_[body]);
         collider_.roused().clear();
+        if (alsoWake_) alsoWake_();
         collider_.settleDrifts();
     }
 }
@@ -384,6 +385,7 @@ void RigidStage::begin(State& state, const WorldSettings& settings, double h, do
     substeps_ = static_cast<double>(std::lround(dt / h));
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * h;
     pool_.setThreads(settings.threads);
+    drowsy_ = false;
     scaleSleeping(h);
     arena_.reset();
     double_.begin(collider_.bodies().size(), shape, pool_, arena_);

@@ -89,6 +89,11 @@ public:
     bool allAsleep(const State&) const;
     /// In place of such a step.
     void skip();
+    /// Called in the midst of a step, when groups have woken; may wake others.
+    void onWaking(std::function<void()> call) { alsoWake_ = std::move(call); }
+    /// The handle of one body of the group that the body fell asleep with.
+    Index groupOf(Index handle) const { return collider_.bodies()[group_[bodyOf(handle)]].handle; }
+    bool anyAsleep() const { return sleepers_ > 0; }
     bool asleep(Index handle) const { return has(handle) && collider_.bodies()[bodyOf(handle)].asleep; }
 
     void report(std::vector<Contact>&, std::vector<std::uint64_t>& touching) const;
@@ -250,6 +255,7 @@ private:
     std::uint32_t sleepers_ = 0;  // bodies
     bool drowsy_ = false;         // has one fallen asleep after the last step?
     bool woke_ = false;           // has a body woken since contacts were last looked at?
+    std::function<void()> alsoWake_;
     Index movers_ = 0;
     std::size_t removed_ = 0;       // bodies
     std::vector<Index> kinematic_;  // bodies

@@ -53,7 +53,12 @@ void Contacts::find(State& state, const WorldSettings& settings, const std::vect
 {
     if (first) ended_.clear();
     path_.resize(state.bodies.size(), 0.0);
-    if (refill_ || blocks_.empty()) rebuild(state);
+    if (refill_ || blocks_.empty()) {
+        rebuild(state);
+    } else if (roused_ && lacksSeats(state)) {
+        unseated_ = true;
+    }
+    roused_ = false;
     std::size_t used = blocks_.size();
     while (used > 0 && isEmpty(blocks_[used - 1])) --used;
     resize(used);
@@ -90,6 +95,10 @@ void Contacts::look(State& state, const std::vector<Motion>& motions, double dt,
     for (Pair& pair : pairs_) {
         while (before != pairsBefore_.end() && comesBefore(*before, pair)) leave(*before++);
         before_ = before != pairsBefore_.end() && !comesBefore(pair, *before) ? &*before++ : nullptr;
+        if (state.atRest(pair.a, pair.b)) {
+            keep(pair);
+            for (Index i = pair.first; i < pair.end; ++i) vacate(touches_[i]);
+        }
         if (pair.kept != 0) continue;
         if (before_) keep(*before_);
         pair.first = static_cast<Index>(touches_.size());
@@ -103,7 +112,7 @@ void Contacts::look(State& state, const std::vector<Motion>& motions, double dt,
                 touch.normalImpulse = touch.tangentImpulse = touch.stepImpulse = 0;
             }
         }
-        if (pair.resolve == 0 || unseated_) continue;
+        if (!isSolved(state, pair) || unseated_) continue;
         for (Index i = pair.first; i < pair.end; ++i) {
             if (touches_[i].seat == kNone) touches_[i].seat = seatAmong(state, touches_[i]);
             fill(state, pair, touches_[i]);
@@ -134,7 +143,8 @@ void Contacts::plan(const State& state, const WorldSettings& settings, const std
         while (before != pairsBefore_.end() && comesBefore(*before, pair)) ++before;
         const bool known = before != pairsBefore_.end() && !comesBefore(pair, *before);
         const double reach = motions[met.a].range + motions[met.b].range, path = path_[met.a] + path_[met.b];
-        if (known && pair.isLike(*before) && path - before->seenAt + reach <= static_cast<double>(before->room)) {
+        const bool roomy = known && path - before->seenAt + reach <= static_cast<double>(before->room);
+        if (known && pair.isLike(*before) && (roomy || state.atRest(met.a, met.b))) {
             pair = *before;
             pair.kept = 1;
         } else {
@@ -192,13 +202,21 @@ void Contacts::rebuild(const State& state)
         for (Index i = pair.first; i < pair.end && pair.resolve != 0; ++i) {
             const Touch& touch = touches_[i];
             if (touch.seat == kNone) {
-                unseated_ = true;
+                unseated_ |= isSolved(state, pair);
                 continue;
             }
             if (touch.seat / kWide >= blocks_.size()) resize(touch.seat / kWide + std::size_t{1});
             fill(state, pair, touch);
         }
     }
+}
+
+bool Contacts::lacksSeats(const State& state) const
+{
+    for (const Pair& pair : pairs_)
+        for (Index i = pair.first; i < pair.end && isSolved(state, pair); ++i)
+            if (touches_[i].seat == kNone) return true;
+    return false;
 }
 
 /// A lane that is free, in one of the last blocks in which none holds one of the touch's nodes; else in a new one.
@@ -264,7 +282,7 @@ void Contacts::travel(const State& state, std::span<const Vec2> from)
     path_.resize(state.bodies.size(), 0.0);
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
-        if (!body.wide || body.fixed) continue;
+        if (!body.wide || body.fixed || body.asleep) continue;
         const Index first = body.nodes.first;
         path_[handle] += std::sqrt(state.clouds->farthest(state.nodes.position[first].data(), from[first].data(),
                                                           nullptr, 0, body.nodes.count));
@@ -346,7 +364,7 @@ void Contacts::seat(const State& state)
         seated_.assign(state.nodes.size(), 0);
         filled_.fill(0);
         for (const Pair& pair : pairs_) {
-            if (pair.resolve == 0) continue;
+            if (!isSolved(state, pair)) continue;
             for (Index i = pair.first; i < pair.end; ++i) {
                 Touch& touch = touches_[i];
                 if (rankOf(touch) != rank) continue;

@@ -46,6 +46,14 @@ public:
     /// How far the bodies' particles went from where they were. Between steps: `carry`.
     void travel(const State&, std::span<const Vec2> from);
     void carry(Index body, double way);
+    /// A body has woken: what it touches is solved again.
+    void rouse() { roused_ = true; }
+    /// Calls visit(body, body) for each pair.
+    template <class Visit>
+    void eachPair(Visit&& visit) const
+    {
+        for (const Pair& pair : pairs_) visit(pair.a, pair.b);
+    }
     /// Masses have changed.
     void outdate() { refill_ = true; }
     /// Drops what touches walls of such bodies: the walls have got other numbers.
@@ -123,6 +131,12 @@ private:
     void plan(const State&, const WorldSettings&, const std::vector<Motion>&, std::span<const BodyPair>);
     void survey(State&, const std::vector<Motion>&, Pair&, double dt);
     bool wellSeated() const;
+    /// Have touches that shall be solved no seats?
+    bool lacksSeats(const State&) const;
+    static bool isSolved(const State& state, const Pair& pair)
+    {
+        return pair.resolve != 0 && !state.atRest(pair.a, pair.b);
+    }
     void rebuild(const State&);
     Index seatAmong(const State&, const Touch&);
     void vacate(Touch&);
@@ -156,6 +170,7 @@ private:
     bool refill_ = false;    // do the blocks hold what was so before?
     bool kept_ = true;       // do the touches hold what the blocks do?
     bool unseated_ = false;  // have some touches no seats?
+    bool roused_ = false;    // has a body woken since the last find?
     ContactStep step_;
     std::vector<double> path_;  // [bodies] units their fastest particles went
 

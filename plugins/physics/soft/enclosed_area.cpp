@@ -127,7 +127,7 @@ bool holdsGas(const BodyRecord& body)
 void applyPressure(State& state, double h)
 {
     for (const BodyRecord& body : state.bodies)
-        if (holdsGas(body)) push(state, body, h, state.scratch.gradient);
+        if (!body.asleep && holdsGas(body)) push(state, body, h, state.scratch.gradient);
 }
 
 double gasEnergy(const State& state, const BodyRecord& body, double h)

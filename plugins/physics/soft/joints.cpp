@@ -345,17 +345,24 @@ bool Joints::pulls(const State& state, const Held& held)
     return held.joint.lives() && takesPart(held.joint.def.a) && takesPart(held.joint.def.b);
 }
 
+bool Joints::rests(const State& state, const Held& held)
+{
+    const Index a = bodyOf(held.joint.def.a), b = bodyOf(held.joint.def.b);
+    if (a == kNone || b == kNone) return state.bodies[a == kNone ? b : a].asleep;
+    return state.atRest(a, b);
+}
+
 void Joints::push(State& state, double h)
 {
     h_ = h;
     for (Held& held : joints_)
-        if (pulls(state, held)) solve(state, held, true);
+        if (pulls(state, held) && !rests(state, held)) solve(state, held, true);
 }
 
 void Joints::relax(State& state)
 {
     for (std::size_t i = joints_.size(); i-- > 0;)
-        if (pulls(state, joints_[i])) solve(state, joints_[i], false);
+        if (pulls(state, joints_[i]) && !rests(state, joints_[i])) solve(state, joints_[i], false);
 }
 
 bool Joints::settle(Held& held, double dt)
@@ -369,10 +376,10 @@ bool Joints::settle(Held& held, double dt)
     return true;
 }
 
-bool Joints::finish(double dt)
+bool Joints::finish(const State& state, double dt)
 {
     bool broke = false;
-    for (Held& held : joints_) broke |= settle(held, dt);
+    for (Held& held : joints_) broke |= !rests(state, held) && settle(held, dt);
     return broke;
 }
 

@@ -28,7 +28,14 @@ public:
     void push(State&, double h);
     void relax(State&);
     /// After the last substep of a step of dt: what the joints bore; true when one broke under it.
-    bool finish(double dt);
+    bool finish(const State&, double dt);
+    /// Calls visit(body, body) for each that is whole; kNone: the background.
+    template <class Visit>
+    void eachBond(Visit&& visit) const
+    {
+        for (const Held& held : joints_)
+            if (held.joint.lives()) visit(bodyOf(held.joint.def.a), bodyOf(held.joint.def.b));
+    }
     /// Bodies that joints keep from colliding; ascending.
     std::vector<std::pair<Index, Index>> excluded() const;
     /// Does any of them hold the body?
@@ -158,6 +165,8 @@ private:
     static JointFrame frame(const Held&, const Pose& a, const Pose& b);
     bool settle(Held&, double dt);
     static bool pulls(const State&, const Held&);
+    /// Is all that it holds asleep, or does it stand?
+    static bool rests(const State&, const Held&);
     static Index bodyOf(const Anchor& anchor) { return anchor.body == kNoHandle ? kNone : anchor.body; }
     void addPoint(const Joint&, const JointFrame&);
     void makeRows(const Held&, const Pose& a, const Pose& b, double h);

@@ -59,7 +59,7 @@ void Twins::apply(State& state, const SoftSprings& springs, double h)
 {
     for (BodyHandle handle = 0; handle < state.bodies.size(); ++handle) {
         BodyRecord& body = state.bodies[handle];
-        if (pulls(body, springs, handle)) apply(state, body, h);
+        if (!body.asleep && pulls(body, springs, handle)) apply(state, body, h);
     }
 }
 

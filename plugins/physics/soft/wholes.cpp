@@ -36,7 +36,7 @@ void Wholes::gather(const State& state)
     kinematic_.clear(), upright_.clear(), free_.clear();
     for (Index handle = 0; handle < state.bodies.size(); ++handle) {
         const BodyRecord& body = state.bodies[handle];
-        if (!body.soft || body.fixed || !body.enabled || body.nodes.count == 0) continue;
+        if (!body.soft || body.fixed || !body.enabled || body.asleep || body.nodes.count == 0) continue;
         if (body.kinematic) {
             const MassSums sums = massSums(state.nodes, body.nodes);
             Kinematic& own = kinematic_.emplace_back(Kinematic{handle, sums.velocity, sums.omega()});

@@ -435,11 +435,13 @@ TEST(Sleep, WhatDriftsSlowlyThroughEmptySpaceDriftsOn)
     EXPECT_NEAR(at(*world, 0).x(), 10, 1e-6);
 }
 
-TEST(Sleep, WhatLiesOnASoftBodyStaysAwakeWithIt)
+TEST(Sleep, WhatLiesOnASoftBodyThatMayNotSleepStaysAwakeWithIt)
 {
     auto world = JetPhysics().createWorld(sleepy());
     world->addRigidBody(simple(ground(0)));
-    const BodyHandle cushion = world->addSoftBody(softBall({0, -20}, 20, 2000, 5));
+    SoftBodyDef sleepless = softBall({0, -20}, 20, 2000, 5);
+    sleepless.common.allowSleep = false;
+    const BodyHandle cushion = world->addSoftBody(sleepless);
     const BodyHandle rider = world->addRigidBody(simple(box({0, -46}, 10, 10, 0.1)));
     const BodyHandle aside = world->addRigidBody(simple(box({200, -5}, 10, 10)));
     const BodyHandle onIt = world->addRigidBody(simple(box({200, -15}, 10, 10)));
@@ -461,11 +463,13 @@ TEST(Sleep, WhatLiesOnASoftBodyStaysAwakeWithIt)
     EXPECT_NE(at(*world, onIt), place);
 }
 
-TEST(Sleep, WhatASoftBodyHoldsStaysAwake)
+TEST(Sleep, WhatASoftBodyHoldsThatMayNotSleepStaysAwake)
 {
     auto world = JetPhysics().createWorld(sleepy());
     world->addRigidBody(simple(ground(0)));
-    const BodyHandle soft = world->addSoftBody(softBall({0, -20}, 20, 2000, 5));
+    SoftBodyDef sleepless = softBall({0, -20}, 20, 2000, 5);
+    sleepless.common.allowSleep = false;
+    const BodyHandle soft = world->addSoftBody(sleepless);
     const BodyHandle tied = world->addRigidBody(simple(box({100, -5}, 10, 10)));
     const BodyHandle sprung = world->addRigidBody(simple(box({-100, -5}, 10, 10)));
     const BodyHandle onTied = world->addRigidBody(simple(box({100, -15}, 10, 10)));
