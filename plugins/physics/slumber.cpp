@@ -89,7 +89,7 @@ void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& a
     islands_.reserve(state.bodies.size());
     still_.assign(state.bodies.size(), 0);
     constexpr double kNoBound = std::numeric_limits<double>::infinity();
-    held_.assign(state.bodies.size(), {kNoBound, kNoBound});
+    held_.assign(state.bodies.size(), {kNoBound, kNoBound, 0});
     actuators.eachSpring([&](Index a, Index b, double ks, double kd) {
         for (const Index body : {a, b}) {
             if (body == kNone || !state.bodies[body].soft) continue;
@@ -107,7 +107,6 @@ void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& a
             forget(is.soft->watch);
             continue;
         }
-        is.soft->watch.places.resize(is.nodes.count), is.soft->watch.speeds.resize(2 * std::size_t{is.nodes.count});
         if (isFast(state, is)) {
             forget(is.soft->watch);
             continue;
@@ -122,7 +121,8 @@ Slumber::Bounds Slumber::boundsOf(const State& state, Index body, const SoftSpri
 {
     const BodyRecord& is = state.bodies[body];
     const double gravity = settings.applyGravity ? settings.gravity.norm() * std::abs(is.gravityScale) : 0;
-    Bounds bounds{kStillSpeed * is.length, gravity > 0 ? kUnborne * gravity : kUnborneSize * is.length};
+    Bounds bounds{kStillSpeed * is.length, gravity > 0 ? kUnborne * gravity : kUnborneSize * is.length, 0};
+    bounds.fall = 100 * bounds.bend;
     const SoftMatter& matter = is.soft->matter;
     const SoftSprings::Slowest slowest = springs.slowest(body);
     const double left = kLeft * is.length;
@@ -144,19 +144,35 @@ bool Slumber::look(State& state, Index body, const Bounds& bounds, double interv
     const Range& own = state.bodies[body].nodes;
     almost_ -= watch.looks == kAlmost;
     const std::uint8_t looks = watch.looks;
-    watch.speed = static_cast<float>(std::min(bounds.speed, 1e30)), watch.looks = 1;
+    if (looks < 2) {  // what falls, or turns round, is slow for once: no memory for that
+        const auto speed = static_cast<float>(state.nodes.velocity[own.first].norm());
+        const bool falls = !(static_cast<double>(std::abs(speed - watch.speed)) <= bounds.fall * interval);
+        watch.speed = speed;
+        if (looks == 0 || falls) {
+            watch.looks = 1;
+            return false;
+        }
+    }
+    if (watch.places.capacity() < own.count) {  // where one comes to rest, others will
+        for (BodyRecord& body : state.bodies)
+            if (body.soft && body.soft->watch.mayRest && !body.fixed)
+                body.soft->watch.places.reserve(body.nodes.count),
+                    body.soft->watch.speeds.reserve(2 * std::size_t{body.nodes.count});
+    }
+    watch.places.resize(own.count), watch.speeds.resize(2 * std::size_t{own.count});
+    watch.speed = static_cast<float>(std::min(bounds.speed, 1e30)), watch.looks = 2;
     double fastest = 0, bend = 0;
     for (Index k = 0; k < own.count; ++k) {
         const Vec2& at = state.nodes.position[own.first + k];
-        const Vec2 speed = looks > 0 ? Vec2((at - watch.places[k]) / interval) : Vec2(0, 0);
+        const Vec2 speed = looks > 1 ? Vec2((at - watch.places[k]) / interval) : Vec2(0, 0);
         const Vec2 before(static_cast<double>(watch.speeds[2 * k]), static_cast<double>(watch.speeds[2 * k + 1]));
         fastest = std::max(fastest, speed.squaredNorm()), bend = std::max(bend, (speed - before).squaredNorm());
         watch.places[k] = at;
         watch.speeds[2 * k] = static_cast<float>(speed.x()), watch.speeds[2 * k + 1] = static_cast<float>(speed.y());
     }
-    if (looks == 0 || !(std::sqrt(fastest) <= bounds.speed)) return false;
-    watch.looks = 2;
-    if (looks == 1 || !(std::sqrt(bend) <= bounds.bend * interval)) return false;
+    if (looks == 1 || !(std::sqrt(fastest) <= bounds.speed)) return false;
+    watch.looks = 3;
+    if (looks == 2 || !(std::sqrt(bend) <= bounds.bend * interval)) return false;
     watch.looks = kAlmost, ++almost_;
     return looks == kAlmost;
 }
@@ -206,7 +222,7 @@ bool Slumber::fits(const State& state) const
     for (const BodyRecord& body : state.bodies) {
         if (!body.soft) continue;
         const RestWatch& watch = body.soft->watch;
-        if (watch.looks > kAlmost || (watch.looks > 0 && watch.places.size() != body.nodes.count)) return false;
+        if (watch.looks > kAlmost || (watch.looks > 1 && watch.places.size() != body.nodes.count)) return false;
         if (watch.speeds.size() != 2 * watch.places.size()) return false;
         almost += watch.looks == kAlmost, sleepers += body.asleep;
     }

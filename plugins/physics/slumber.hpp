@@ -65,7 +65,7 @@ public:
             if (!body.soft) continue;
             RestWatch& watch = body.soft->watch;
             with(watch.mayRest), with(watch.looks), with(watch.speed);
-            if (watch.looks == 0) continue;
+            if (watch.looks < 2) continue;
             with.list(watch.places, [&](Vec2& place) { with(place); });
             with.list(watch.speeds, [&](float& speed) { with(speed); });
         }
@@ -78,8 +78,9 @@ private:
     /// What counts as none.
     struct Bounds {
         double speed = 0, bend = 0;  // units / s, units / s²
+        double fall = 0;             // units / s²: what changes its speed by more is not worth a look
     };
-    static constexpr std::uint8_t kAlmost = 3;  // of RestWatch::looks
+    static constexpr std::uint8_t kAlmost = 4;  // of RestWatch::looks
 
     Bounds boundsOf(const State&, Index body, const SoftSprings&, const WorldSettings&) const;
     bool look(State&, Index body, const Bounds&, double interval);
