@@ -79,8 +79,8 @@ struct SoftSprings::Corner {
     }
 };
 
-void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf,
-                             Index body, Index place)
+void SoftSprings::addAngular(const State& state, const AngularSpringDef& def, std::span<const Index> nodeOf, Index body,
+                             Index place)
 {
     Angular spring;
     spring.body = body;

@@ -133,8 +133,8 @@ private:
         double angle = 0;           // unwrapped: continues through ±pi
         double restCompliance = 0;  // sum of |grad angle|² / m at rest
         Index body = kNone;
-        double stiffness = 0;       // ks after softening
-        double damping = 0;         // kd and what softening adds
+        double stiffness = 0;  // ks after softening
+        double damping = 0;    // kd and what softening adds
     };
     struct Corner;
     struct Kind {
@@ -156,8 +156,7 @@ private:
         double provenRate = 0;     // substeps / s that were proven to suffice, besides the bounds; 0: none
     };
 
-    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf, Index body,
-                    Index place);
+    void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf, Index body, Index place);
     void dropUnusedKinds();
     double stiffnessOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.ks : kindOf(i).ks; }
     double dampingOf(const Mesh& mesh, Index i) const { return mesh.uniform ? mesh.kd : kindOf(i).kd; }

@@ -128,10 +128,10 @@ struct BodyRecord {
     bool enabled : 1 = true;     // may move, meet and be seen
     bool drives : 1 = false;     // kinematic while it is enabled
     bool fixedRotation : 1 = false;
-    bool asleep : 1 = false;  // rests, and is left out until something wakes it
-    bool stands : 1 = false;  // as of this step: fixed, or kinematic and not moving
+    bool asleep : 1 = false;   // rests, and is left out until something wakes it
+    bool stands : 1 = false;   // as of this step: fixed, or kinematic and not moving
     bool removed : 1 = false;  // its place is free for another
-    bool flown : 1 = false;   // soft: nothing else acts on it, and it has been moved for all of the step at hand
+    bool flown : 1 = false;    // soft: nothing else acts on it, and it has been moved for all of the step at hand
     Index material = 0;
     std::uint32_t layer = 1;
     Range nodes, points, walls;

@@ -153,7 +153,9 @@ void World::restTogether()
     slumber_.judge(state_, springs_, actuators_, settings_);
     const std::vector<BodyRecord>& bodies = state_.bodies;
     const auto count = static_cast<Index>(bodies.size());
-    auto& [group, firstRigid, root, restless, soft, bonds] = resting_;
+    std::vector<Index>&group = resting_.group, &firstRigid = resting_.firstRigid, &root = resting_.root;
+    std::vector<std::uint8_t>&restless = resting_.restless, &soft = resting_.soft;
+    Bonds& bonds = resting_.bonds;
     group.resize(count), root.resize(count), soft.assign(count, 0);
     firstRigid.assign(count, kNone), restless.assign(count, 0);
     bonds.pairs.clear(), bonds.awake.clear();
@@ -206,7 +208,8 @@ void World::nameIslands()
     const auto count = static_cast<Index>(bodies.size());
     std::vector<Index>& islands = slumber_.islands();
     islands.resize(count, kNone);
-    auto& [group, firstRigid, root, restless, soft, bonds] = resting_;
+    std::vector<Index>&group = resting_.group, &root = resting_.root;
+    std::vector<std::uint8_t>& soft = resting_.soft;
     std::iota(root.begin(), root.end(), Index{0});
     for (Index body = 0; body < count; ++body) {
         if (!bodies[body].asleep) continue;

@@ -3,8 +3,8 @@
 // Order of calls: engine.createWorld -> world.add... (any number) -> world.step / read / act, repeated -> destroyed.
 // A world belongs to one thread at a time, the simulation's, also for what is const: readings are worked out when they
 // are first asked for. Handles are indices in the order of adding, per kind; what was added stays (a body may be
-// switched off, a joint removed). Spans that are told hold until the next call that is not const. A world outlives its
-// engine object, but not the library it comes from.
+// switched off, a joint removed) unless it is taken out (physics_removal.hpp). Spans that are told hold until the next
+// call that is not const. A world outlives its engine object, but not the library it comes from.
 //
 // Whatever is out of range, not a number, or names what is not there is refused by throwing Failure with a sentence
 // that names the item, the field, its value and the range (physics_checks.hpp has all of them; the defaults below are
@@ -107,7 +107,7 @@ struct BodyCommon {
     std::uint32_t layer = 1;     ///< bits: the layers it is on
     std::uint32_t mask = ~0U;    ///< bits: the layers it collides with; both sides must agree
     Vec2 oneSided;               ///< not null: only what comes against this direction collides (platforms)
-    bool allowSleep = true;      ///< rigid bodies: may it fall asleep?
+    bool allowSleep = true;      ///< may it fall asleep?
 };
 
 /// A simple part of a rigid body, in scene coordinates at rest.
@@ -326,7 +326,7 @@ public:
     /// Spring and torn state for drawing: is the soft body's spring `index` still whole?
     virtual bool springAlive(BodyHandle body, std::uint32_t index) const = 0;
 
-    // What follows an engine may lack; the default refuses with a sentence or answers "nothing".
+    // What follows an engine may lack; the default refuses with a sentence.
 
     /// Live changes. `setSettings` takes all but the count of materials, precision and SIMD; `setBody` all but `fixed`
     /// and the initial velocities; `setJoint` all but the kind and the anchors.
@@ -371,7 +371,7 @@ public:
     /// of all that touch as beginning. Ask from the first step on, or compare contacts().
     virtual std::span<const ContactEvent> contactEvents() const { return {}; }
 
-    // Queries see the world as it is, also between adding and the first step. None is found where the engine has none.
+    // Queries see the world as it is, also between adding and the first step.
 
     /// The first body on the way from one place to another.
     virtual std::optional<CastHit> rayCast(const Vec2& from, const Vec2& to, const QueryFilter& = {}) const;

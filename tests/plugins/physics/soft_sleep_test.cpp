@@ -2,6 +2,8 @@
 #include "lattices.hpp"
 #include "shape_worlds.hpp"
 
+#include <jet/physics_removal.hpp>
+
 #include <functional>
 #include <string>
 
@@ -105,6 +107,29 @@ TEST(SoftSleep, StacksAndHeapsOfSoftBodiesSleep)
     const std::vector<Vec2> before = pointsOf(*heap);
     run(*heap, 10);
     EXPECT_EQ(pointsOf(*heap), before);
+}
+
+TEST(SoftSleep, WhatIsRemovedUnderASleeperWakesItAndItsPlaceStartsAwake)
+{
+    std::uint64_t hashes[2] = {};
+    for (const int threads : {1, 2}) {
+        auto world = boxOnJelly(sleepy(threads));
+        ASSERT_TRUE(settles(*world));
+        const double slept = world->bodies().position[kBox].y();
+        removal(*world).removeBody(kJelly);
+        EXPECT_TRUE(world->awake(kBox));
+        for (int i = 0; i < 60; ++i) world->step(kStep);
+        EXPECT_GT(world->bodies().position[kBox].y(), slept + 5) << "it falls on the ground";
+        const BodyHandle next = world->addSoftBody(jelly({40, -30}));
+        EXPECT_EQ(next, kJelly);
+        EXPECT_TRUE(world->awake(next));
+        for (int i = 0; i < 30; ++i) world->step(kStep);
+        EXPECT_GT(world->bodies().position[next].y(), -25) << "it falls, too";
+        EXPECT_TRUE(settles(*world));
+        EXPECT_FALSE(world->awake(next));
+        hashes[threads - 1] = world->hash();
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 TEST(SoftSleep, AJellyBlockAndTheBoxOnItSleepTogetherAndWakeTogether)
