@@ -143,7 +143,7 @@ interface Torque {
     setValue(value: number): void;
 }
 
-/** A spring's values. Those of angular springs stay as drawn while playing. @since 0.1 */
+/** A spring's values. @since 0.1 */
 interface Spring {
     readonly item: Item;
     /** Stiffness. */
