@@ -229,7 +229,7 @@ SoftSprings::Slowest SoftSprings::slowest(Index body) const
 
 bool SoftSprings::flows(const State& state, Index body) const
 {
-    constexpr double kLeast = 1e-9;  // of strain: what would flow no further
+    constexpr double kLeast = 1e-12;  // of strain: what would flow no further
     const SoftMatter& matter = state.bodies[body].soft->matter;
     if (!(matter.yield > 0) || !(matter.creep > 0)) return false;
     const Mesh& mesh = meshes_[body];
