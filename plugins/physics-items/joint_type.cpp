@@ -70,19 +70,6 @@ JointDef definition(const Item& item, const PropertyTable& table)
     return def;
 }
 
-/// Why it is of no use, or nothing.
-std::string uselessness(const JointDef& def)
-{
-    if (def.kind == Kind::Mouse && def.maxForce == 0) return "its max-force is 0; it pulls nothing";
-    if (def.kind == Kind::Motor && def.maxForce == 0 && def.maxTorque == 0)
-        return "its max-force and max-torque are 0; it drives nothing";
-    if (def.driven && def.kind == Kind::Prismatic && def.maxForce == 0)
-        return "its max-force is 0; its motor does nothing";
-    if (def.driven && (def.kind == Kind::Revolute || def.kind == Kind::Wheel) && def.maxTorque == 0)
-        return "its max-torque is 0; its motor does nothing";
-    return {};
-}
-
 }  // namespace
 
 const PropertyTable& JointType::properties() const
@@ -142,7 +129,6 @@ void JointType::build(const Item& item, WorldBuilder& builder) const
                                                           : "both ends lie in one body; it does nothing");
     // A mouse joint pulls b: Box2D's moves nothing else.
     if (def.kind == Kind::Mouse && def.b.body == kNoHandle) std::swap(def.a, def.b);
-    if (const std::string useless = uselessness(def); !useless.empty()) builder.warn(item, useless);
     if (hasPivot(def.kind)) def.a.point = def.b.point = pivotOf(path);
     if (def.kind == Kind::Pulley) def.groundA = path.segment(1).point, def.groundB = path.segment(count - 2).point;
     try {

@@ -92,6 +92,19 @@ std::string reasonOf(const Failure& failure)
     return reason;
 }
 
+/// Why a joint is of no use, or nothing. A script may give it force, so this is said where there is none.
+std::string uselessness(const JointDef& def)
+{
+    if (def.kind == JointDef::Kind::Mouse && def.maxForce == 0) return "its max-force is 0; it pulls nothing";
+    if (def.kind == JointDef::Kind::Motor && def.maxForce == 0 && def.maxTorque == 0)
+        return "its max-force and max-torque are 0; it drives nothing";
+    if (def.driven && def.kind == JointDef::Kind::Prismatic && def.maxForce == 0)
+        return "its max-force is 0; its motor does nothing";
+    if (def.driven && (def.kind == JointDef::Kind::Revolute || def.kind == JointDef::Kind::Wheel) && def.maxTorque == 0)
+        return "its max-torque is 0; its motor does nothing";
+    return {};
+}
+
 }  // namespace
 
 void SceneWorldBuilder::addBody(const Item& item)
@@ -148,11 +161,22 @@ void SceneWorldBuilder::addBody(const Item& item)
     bodies.push_back(std::move(binding));
 }
 
+void SceneWorldBuilder::warnOfUseless(const Item& item)
+{
+    for (const ItemPart& part : recording_.parts.parts) {
+        const auto* joint = std::get_if<JointDef>(&part.def);
+        const std::string useless = joint ? uselessness(*joint) : "";
+        if (!useless.empty()) warn(item, useless);
+    }
+}
+
 void SceneWorldBuilder::build()
 {
     std::size_t place = 0;
+    bool scripted = false;
     scene_.root().walk([&](const Item& item) {
         order_[item.id().value] = place++;
+        scripted |= item.is<ScriptItem>();
         if (item.is<BodyItem>()) addBody(item);
     });
     const BodyStates states = world_.bodies();
@@ -162,6 +186,7 @@ void SceneWorldBuilder::build()
         if (!type) return;
         recording_.parts = {};
         type->build(item, *this);
+        if (!scripted) warnOfUseless(item);
         if (!recording_.parts.parts.empty()) parts.emplace(item.id(), std::move(recording_.parts));
     });
 }

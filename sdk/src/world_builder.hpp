@@ -51,6 +51,7 @@ public:
 
 private:
     void addBody(const Item& item);
+    void warnOfUseless(const Item& item);
     Anchor anchorAt(const Item& item, const Vec2& point) const;
 
     const Scene& scene_;
