@@ -1,26 +1,11 @@
 // Soft bodies that are slow, but not at rest, do not sleep; and what sleeps is the same bits everywhere.
-#include "lattices.hpp"
-#include "shape_worlds.hpp"
+#include "jellies.hpp"
 
 #include <string>
 
 namespace jet::physics::test {
 
 namespace {
-
-WorldSettings sleepy(int threads = 1, Simd simd = Simd::Automatic)
-{
-    WorldSettings settings = shapeSettings(threads, simd);
-    settings.allowSleep = true;
-    return settings;
-}
-
-SoftBodyDef jelly(const Vec2& centre, double ks = 1000, double kd = 5)
-{
-    SoftBodyDef def = square(centre, 10);
-    for (SpringDef& spring : def.springs) spring.ks = ks, spring.kd = kd;
-    return def;
-}
 
 /// Steps; is body `body` ever asleep?
 bool everSleeps(PhysicsWorld& world, BodyHandle body, double seconds)

@@ -1,6 +1,5 @@
 // Soft bodies that rest fall asleep, together with what lies on them; what swings, sags or flows does not.
-#include "lattices.hpp"
-#include "shape_worlds.hpp"
+#include "jellies.hpp"
 
 #include <jet/physics_removal.hpp>
 
@@ -10,20 +9,6 @@
 namespace jet::physics::test {
 
 namespace {
-
-WorldSettings sleepy(int threads = 1, Simd simd = Simd::Automatic)
-{
-    WorldSettings settings = shapeSettings(threads, simd);
-    settings.allowSleep = true;
-    return settings;
-}
-
-SoftBodyDef jelly(const Vec2& centre, double ks = 1000, double kd = 5)
-{
-    SoftBodyDef def = square(centre, 10);
-    for (SpringDef& spring : def.springs) spring.ks = ks, spring.kd = kd;
-    return def;
-}
 
 /// Steps until nothing is awake; false: something still is after `seconds`.
 bool settles(PhysicsWorld& world, double seconds = 20)
