@@ -1,4 +1,5 @@
 // Bodies and actuators that are taken out of a world that runs, and those that take their places.
+#include "doors.hpp"
 #include "lattices.hpp"
 #include "shape_worlds.hpp"
 
@@ -141,17 +142,6 @@ TEST(Removal, InALargeHeapThreadsGiveEqualBits)
     const std::uint64_t one = hashOf(1);
     EXPECT_EQ(hashOf(2), one);
     EXPECT_EQ(hashOf(4), one);
-}
-
-template <class Act>
-std::string refusalOf(Act&& act)
-{
-    try {
-        act();
-    } catch (const Failure& failure) {
-        return failure.error().message;
-    }
-    return {};
 }
 
 TEST(Removal, WhatIsRemovedIsNamedInTheRefusalOfEveryCallAndTheWorldIsAsItWas)
