@@ -212,13 +212,13 @@ private:
             return p.left != q.left ? p.left < q.left : p.right < q.right;
         }
     };
-    /// Pairs that one thread brings in order, of all that were found: [from, to).
-    struct Piece {
-        FoundPair from, to;
-        std::vector<std::size_t> runs;  // [blocks + 1] where those of each block begin
-    };
     void mergeFound(std::size_t blocks, Pool&);
-    void mergePiece(Piece&, std::size_t blocks);
+    /// [first, middle) and [middle, last).
+    struct Neighbours {
+        std::size_t first = 0, middle = 0, last = 0;
+    };
+    void mergeBlocks(std::size_t first, std::size_t last, int levels);
+    void mergePart(const Neighbours&, std::size_t part, std::size_t parts);
     std::pair<Index, Index> orderedParts(const FoundPair&) const;
     void prefetchPair(const FoundPair&) const;
     void addFound(const WorldSettings&, Pool&);
@@ -290,7 +290,7 @@ private:
     KeySet known_, excluded_;
     std::vector<FoundPair> found_, merged_;        // scratch of findPairs()
     std::vector<std::vector<FoundPair>> foundBy_;  // the same, by blocks
-    std::vector<Piece> pieces_;
+    std::vector<std::size_t> runs_;                // [blocks + 1] where the pairs of each begin
     std::vector<RigidContact> contacts_;
     std::vector<Place> places_;               // [contacts]
     std::vector<Nearing> nearing_;            // [contacts]

@@ -100,10 +100,13 @@ public:
                 }
             };
             // Each domain begins elsewhere, so that threads do not go side by side through the same lines.
-            pool.run(leaves(), [&](std::size_t i) {
-                const Slots slots = ranges_[leaf(i)];
-                const std::size_t start = slots.first + (slots.last - slots.first) * i / leaves();
-                range(start, slots.last), range(slots.first, start);
+            pool.run(leaves() * kPieces, [&](std::size_t i) {
+                const std::size_t domain = i / kPieces, turned = i + kPieces * domain / leaves();
+                const Slots slots = ranges_[leaf(domain)];
+                const auto at = [&](std::size_t piece) {
+                    return slots.first + (slots.last - slots.first) * piece / kPieces;
+                };
+                range(at(turned % kPieces), at(turned % kPieces + 1));
             });
             const Slots rest = ranges_[kRoot];
             pool.ranges(rest.last - rest.first, kBlock,
@@ -139,6 +142,7 @@ public:
 private:
     static constexpr std::size_t kStretch = 8;  // bodies side by side that one domain has, on average; less is mixed
     static constexpr Index kAhead = 10;         // bodies
+    static constexpr std::size_t kPieces = 16;  // of a domain, of which a thread takes one after the other
     static constexpr Index kGap = 4;            // slots between domains: two lines, as processors fetch pairs of them
     struct Item {
         Body at;

@@ -11,8 +11,8 @@ namespace jet::physics {
 namespace {
 
 constexpr float kThin = 0.5F;              // of the thickness
-constexpr std::size_t kSoughtABlock = 32;  // parts
-constexpr std::size_t kMergedAPiece = 64;  // pairs: of fewer there is one piece
+constexpr std::size_t kSoughtABlock = 16;  // parts
+constexpr std::size_t kMergedAShare = 64;  // pairs: fewer are merged by one thread
 constexpr std::size_t kAddedABlock = 32;   // pairs
 constexpr std::size_t kPrefetched = 6;     // pairs
 
@@ -41,8 +41,10 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena
             if (parts_[a].body == parts_[b].body) return;
             const std::uint64_t left = leftOf(sweep_.box(a), a), right = leftOf(sweep_.box(b), b);
             found.push_back(right >> 32 < left >> 32 ? FoundPair{right, left} : FoundPair{left, right});
+            known_.prefetch(found.back().key()), prefetchPair(found.back());
         });
-        std::erase_if(found, [&](const FoundPair& pair) { return known_.contains(pair.key()); });
+        std::erase_if(found,
+                      [&](const FoundPair& pair) { return known_.contains(pair.key()) || !accepts(pair, settings); });
         std::sort(found.begin(), found.end());
     });
     sweep_.finish(arena);
@@ -52,74 +54,77 @@ void Collider::findPairs(const WorldSettings& settings, Pool& pool, Arena& arena
     hits_.resize(contacts_.size(), 0);
 }
 
-/// What the blocks found, each in order, into one list. Each thread takes what lies between two of the pairs.
+/// What the blocks found, each in order, into one list. Each thread merges what some blocks found; of two of these
+/// lists that become one, each merges a part.
 void Collider::mergeFound(std::size_t blocks, Pool& pool)
 {
-    std::size_t all = 0;
-    for (std::size_t block = 0; block < blocks; ++block) all += foundBy_[block].size();
+    runs_.assign(1, 0);
+    for (std::size_t block = 0; block < blocks; ++block) runs_.push_back(runs_.back() + foundBy_[block].size());
+    const std::size_t all = runs_.back();
     found_.resize(all), merged_.resize(all);
     if (all == 0) return;
     const auto threads = static_cast<std::size_t>(pool.threads());
-    // The middle ones of all blocks, in order: what lies between them is about the same.
-    merged_.clear();
-    for (std::size_t block = 0; block < blocks && threads > 1; ++block)
-        if (!foundBy_[block].empty()) merged_.push_back(foundBy_[block][foundBy_[block].size() / 2]);
-    std::sort(merged_.begin(), merged_.end());
-    const std::size_t pieces = all < kMergedAPiece * threads || merged_.size() < threads ? 1 : threads;
-    if (pieces_.size() < pieces) pieces_.resize(pieces);
-    for (std::size_t i = 0; i < pieces; ++i) {
-        const auto at = [&](std::size_t piece) { return merged_[piece * merged_.size() / pieces]; };
-        pieces_[i].from = i == 0 ? FoundPair{0, 0} : at(i);
-        pieces_[i].to = i + 1 == pieces ? FoundPair{~std::uint64_t{0}, ~std::uint64_t{0}} : at(i + 1);
+    const std::size_t shares = all < kMergedAShare * threads ? 1 : std::min(threads, blocks);
+    const auto share = [&](std::size_t i) { return i * blocks / shares; };
+    const int levels = std::bit_width((blocks + shares - 1) / shares - 1);
+    pool.run(shares, [&](std::size_t i) { mergeBlocks(share(i), share(i + 1), levels); });
+    if (levels % 2 != 0) found_.swap(merged_);
+    for (std::size_t i = 0; i < shares; ++i) runs_[i] = runs_[share(i)];
+    runs_[shares] = all;
+    for (std::size_t width = 1; width < shares; width *= 2, found_.swap(merged_)) {
+        const std::size_t pairs = (shares + 2 * width - 1) / (2 * width),
+                          parts = std::max<std::size_t>(1, shares / pairs);
+        const auto end = [&](std::size_t run) { return runs_[std::min(run, shares)]; };
+        pool.run(pairs * parts, [&](std::size_t i) {
+            const std::size_t run = i / parts * 2 * width;
+            mergePart({end(run), end(run + width), end(run + 2 * width)}, i % parts, parts);
+        });
     }
-    merged_.resize(all);
-    pool.run(pieces, [&](std::size_t i) { mergePiece(pieces_[i], blocks); });
-    for (std::size_t width = 2; width < blocks; width *= 2) found_.swap(merged_);
 }
 
-/// Sorted stretches of all blocks; neighbours are merged until one is left.
-void Collider::mergePiece(Piece& piece, std::size_t blocks)
+/// Neighbours of [first, last) are merged so many times: after an even number of times they lie in found_.
+void Collider::mergeBlocks(std::size_t first, std::size_t last, int levels)
 {
-    const auto place = [](auto& list, std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto firstOf = [&](std::size_t block) {
-        return std::lower_bound(foundBy_[block].begin(), foundBy_[block].end(), piece.from);
-    };
-    std::size_t begin = 0;
-    for (std::size_t block = 0; block < blocks; ++block)
-        begin += static_cast<std::size_t>(firstOf(block) - foundBy_[block].begin());
-    piece.runs.assign(1, begin);
-    for (std::size_t block = 0; block < blocks; block += 2) {
-        const auto first = firstOf(block), last = std::lower_bound(first, foundBy_[block].end(), piece.to);
-        auto to = place(found_, piece.runs.back());
-        if (block + 1 < blocks) {
-            const auto other = firstOf(block + 1);
-            to = std::merge(first, last, other, std::lower_bound(other, foundBy_[block + 1].end(), piece.to), to);
-        } else {
-            to = std::copy(first, last, to);
-        }
-        piece.runs.push_back(static_cast<std::size_t>(to - found_.begin()));
-    }
-    const std::size_t runs = piece.runs.size() - 1;
+    for (std::size_t block = first; block < last; ++block)
+        std::copy(foundBy_[block].begin(), foundBy_[block].end(),
+                  found_.begin() + static_cast<std::ptrdiff_t>(runs_[block]));
     auto *from = &found_, *to = &merged_;
-    for (std::size_t width = 1; width < runs; width *= 2, std::swap(from, to))
-        for (std::size_t run = 0; run < runs; run += 2 * width) {
-            const std::size_t first = piece.runs[run], middle = piece.runs[std::min(run + width, runs)],
-                              last = piece.runs[std::min(run + 2 * width, runs)];
-            std::merge(place(*from, first), place(*from, middle), place(*from, middle), place(*from, last),
-                       place(*to, first));
+    for (int level = 0; level < levels; ++level, std::swap(from, to)) {
+        const std::size_t width = std::size_t{1} << level;
+        for (std::size_t run = first; run < last; run += 2 * width) {
+            const auto place = [&](std::vector<FoundPair>& list, std::size_t block) {
+                return list.begin() + static_cast<std::ptrdiff_t>(runs_[std::min(block, last)]);
+            };
+            const auto middle = place(*from, run + width);
+            std::merge(place(*from, run), middle, middle, place(*from, run + 2 * width), place(*to, run));
         }
+    }
+}
+
+/// A part of what two neighbouring lists of found_ become in merged_.
+void Collider::mergePart(const Neighbours& lists, std::size_t part, std::size_t parts)
+{
+    const auto place = [](std::vector<FoundPair>& list, std::size_t i) {
+        return list.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    const auto first = place(found_, lists.first), middle = place(found_, lists.middle),
+               last = place(found_, lists.last);
+    const auto cut = [&](std::size_t which) {
+        const auto here = place(found_, lists.first + (lists.middle - lists.first) * which / parts);
+        const auto other = which == 0       ? middle
+                           : which == parts ? last
+                           : here == middle ? last
+                                            : std::lower_bound(middle, last, *here);
+        return std::pair(here, other);
+    };
+    const auto [from, otherFrom] = cut(part);
+    const auto [to, otherTo] = cut(part + 1);
+    std::merge(from, to, otherFrom, otherTo, place(merged_, lists.first) + (from - first) + (otherFrom - middle));
 }
 
 /// New contacts have their numbers in the order of the pairs; all else of them is up to each alone.
 void Collider::addFound(const WorldSettings& settings, Pool& pool)
 {
-    pool.ranges(found_.size(), kAddedABlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            if (i + kPrefetched < last) prefetchPair(found_[i + kPrefetched]);
-            found_[i].contact = accepts(found_[i], settings) ? 0 : kNone;
-        }
-    });
-    std::erase_if(found_, [](const FoundPair& pair) { return pair.contact == kNone; });
     takeContacts();
     const auto know = [&] {
         for (std::size_t i = 0; i < found_.size(); ++i) {

@@ -93,7 +93,7 @@ std::size_t Pool::finishShare(Share& share, bool own)
     }
     while (ticket % kTask != 0)
         if (share.ticket.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acq_rel)) {
-            share.call(share.what, share.first + ticket % kTask - 1);
+            share.call(share.what, share.first + share.count.load(std::memory_order_relaxed) - ticket % kTask);
             ++mine;
             ticket = share.ticket.load(std::memory_order_acquire);
         }

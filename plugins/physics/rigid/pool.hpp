@@ -71,13 +71,12 @@ public:
     void both(std::size_t first, First&& one, std::size_t second, Second&& other)
     {
         const std::size_t blocks = first + second;
-        // Taken from the back, as threads take them: so the last thread begins with the second loop.
         run(blocks, [&](std::size_t block) {
-            const std::size_t back = blocks - 1 - block, ones = back * first / blocks;
-            if ((back + 1) * first / blocks > ones) {
-                one(first - 1 - ones);
+            const std::size_t ones = block * first / blocks;
+            if ((block + 1) * first / blocks > ones) {
+                one(ones);
             } else {
-                other(second - 1 - (back - ones));
+                other(block - ones);
             }
         });
     }
@@ -106,8 +105,8 @@ private:
     std::size_t finishOthers(std::size_t self);
     bool isNew(std::size_t self, std::uint64_t seen) const { return shares_[self].ticket.load() / kTask != seen; }
 
-    /// A thread's blocks of the task, in one line of memory, and none beside it, as lines come in pairs. The last are
-    /// taken first. What is beside the ticket is written before it, and read by those who have got a block.
+    /// A thread's blocks of the task, in one line of memory, and none beside it, as lines come in pairs. They are
+    /// taken in order. What is beside the ticket is written before it, and read by those who have got a block.
     struct alignas(128) Share {
         std::size_t first = 0;
         Call call = nullptr;
