@@ -229,16 +229,24 @@ void Actuators::addForces(State& state) const
         if (!sleeps(state, force.at)) force.at.addForce(state, force.force);
 }
 
-/// Damping comes in two halves, of which the second goes through the springs the other way: dampers one after the other
-/// are together no damper of what a stiff body that they share does; those and back again are.
+/// Damping of springs comes in two halves, of which the second goes through the springs the other way: dampers one
+/// after the other are together no damper of what a stiff body that they share does; those and back again are.
 void Actuators::applySprings(State& state, double h, bool backwards)
 {
-    const auto sweep = [&](auto& springs, bool back, bool first) {
-        for (std::size_t i = 0; i < springs.size(); ++i)
-            apply(state, springs[back ? springs.size() - 1 - i : i], h, first);
+    const auto sweep = [&](bool back, bool first) {
+        for (std::size_t i = 0; i < springs_.size(); ++i)
+            apply(state, springs_[back ? springs_.size() - 1 - i : i], h, first);
     };
-    sweep(springs_, backwards, true), sweep(angularSprings_, backwards, true);
-    sweep(angularSprings_, !backwards, false), sweep(springs_, !backwards, false);
+    sweep(backwards, true);
+    for (std::size_t i = 0; i < angularSprings_.size(); ++i)
+        apply(state, angularSprings_[backwards ? angularSprings_.size() - 1 - i : i], h);
+    sweep(!backwards, false);
+}
+
+void Actuators::brake(State& state, double h, bool backwards)
+{
+    for (std::size_t i = 0; i < angularSprings_.size(); ++i)
+        brake(state, angularSprings_[backwards ? angularSprings_.size() - 1 - i : i], h);
 }
 
 void Actuators::addSpringForces(State& state)
@@ -312,7 +320,7 @@ void Actuators::apply(State& state, Spring& spring, double h, bool first)
 /// Where an arm is so short that the spring holds less, it draws that arm in by the slope of what it holds, implicitly,
 /// as that may be stiff, and nothing is left where the arm passes the centre, which turns it by half a turn at once: as
 /// within soft bodies (soft_angular.cpp). Nor is it wound there.
-void Actuators::apply(State& state, AngularSpring& spring, double h, bool first)
+void Actuators::apply(State& state, AngularSpring& spring, double h)
 {
     if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
     AnchorJacobian jacobian;
@@ -326,12 +334,10 @@ void Actuators::apply(State& state, AngularSpring& spring, double h, bool first)
     if (!(compliance > 0)) return;
     const double strain = spring.angle - spring.restAngle;
     const double hold = std::min(fading.kept(), kStiffeningReserve * spring.restCompliance / compliance);
-    const double elastic = first ? -h * spring.stiffness * hold * strain : 0;
-    const double rate = jacobian.rate(state) + compliance * elastic;
-    jacobian.apply(state, elastic - halfBrake(spring.damping, compliance, h) * rate);
+    jacobian.apply(state, spring.braking - h * spring.stiffness * hold * strain);
 
     const double twice = spring.stiffness * fading.kept() * strain * strain;  // what it holds
-    if (!first || !(fading.kept() < 1 && twice > 0)) return;
+    if (!(fading.kept() < 1 && twice > 0)) return;
     const double each = -0.5 * spring.stiffness * strain * strain;
     const Vec2 drawA = each * fading.slopeA(), drawB = each * fading.slopeB();
     AnchorJacobian draw;
@@ -340,6 +346,25 @@ void Actuators::apply(State& state, AngularSpring& spring, double h, bool first)
     draw.add(state, spring.b, drawB);
     const double power = draw.rate(state), give = draw.compliance(state);
     draw.apply(state, h * (1 - h * power / twice) / (1 + h * h * give / twice));
+}
+
+/// A soft row, as joints and contacts have: its impulse starts as that of the substep before, so that at rest joints
+/// bear what they bear, and comes to −h kd times the rate by what is missing. Damped once, before joints have their
+/// say, it would take from what gravity gives in free fall.
+void Actuators::brake(State& state, AngularSpring& spring, double h)
+{
+    if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
+    AnchorJacobian jacobian;
+    const double damping = h * spring.damping;
+    if (!(damping > 0) || !angleJacobian(state, spring.a, spring.centre, spring.b, jacobian)) {
+        spring.braking = 0;
+        return;
+    }
+    const double change =
+        -(damping * jacobian.rate(state) + spring.braking) / (1 + damping * jacobian.compliance(state));
+    jacobian.apply(state, change);
+    spring.braking += change;
+    if (!std::isfinite(spring.braking)) spring.braking = 0;  // what ran away starts from nothing
 }
 
 }  // namespace jet::physics

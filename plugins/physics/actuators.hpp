@@ -93,8 +93,17 @@ public:
     void prepare(const StiffnessBounds&, double h, bool plain = false);
     /// Adds torques and forces to the nodes; they hold for one substep, as levers turn with their bodies.
     void addForces(State&) const;
-    /// Changes velocities by the impulses of springs and angular springs over h.
+    /// Changes velocities by the impulses of springs and angular springs over h; the damping of angular ones is that of
+    /// the substep before.
     void applySprings(State&, double h, bool backwards);
+    bool brakes() const { return angularSprings_.any(); }
+    /// Makes the damping of angular springs that of the rates as they are, as a row of the joints' solver.
+    void brake(State&, double h, bool backwards);
+    /// What brakes is of one substep: for others of another length.
+    void scale(double ratio)
+    {
+        for (AngularSpring& spring : angularSprings_) spring.braking *= ratio;
+    }
     /// The same as forces of the state as it is, for Method::SemiImplicitEuler.
     void addSpringForces(State&);
 
@@ -104,7 +113,7 @@ public:
         for (Spring& spring : springs_)
             with(spring.alive), with(spring.restLength), with(spring.ks), with(spring.kd), with(spring.tearLength);
         for (AngularSpring& spring : angularSprings_)
-            with(spring.angle), with(spring.restAngle), with(spring.ks), with(spring.kd);
+            with(spring.angle), with(spring.restAngle), with(spring.ks), with(spring.kd), with(spring.braking);
         for (Torque& torque : torques_) with(torque.value);
         for (Force& force : forces_) with(force.force);
     }
@@ -124,6 +133,7 @@ private:
         double restA = 0, restB = 0;  // units², of the arms at the time of adding
         bool removed = false;
         double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
+        double braking = 0;                 // impulse of damping in the last substep, torque · s
     };
     struct Torque {
         AnchorPoint at;
@@ -167,7 +177,8 @@ private:
     static double energy(const State&, const AngularSpring&, double h);
     /// Half of the damping in h; `first`: and all that is elastic.
     static void apply(State&, Spring&, double h, bool first);
-    static void apply(State&, AngularSpring&, double h, bool first);
+    static void apply(State&, AngularSpring&, double h);
+    static void brake(State&, AngularSpring&, double h);
 
     List<Spring> springs_;
     List<AngularSpring> angularSprings_;

@@ -1,6 +1,7 @@
 #include "slumber.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -15,14 +16,71 @@ constexpr double kUnborneSize = 2e-4;  // lengths / s²: the same without gravit
 constexpr double kLeft = 0.0002;       // lengths that what swings or creeps may have before it
 constexpr double kFast = 4;            // times the greatest speed: with that, it moves
 
-/// Units from its place at the last look.
+// Of RestWatch::looks.
+constexpr std::uint8_t kPlaces = 2, kSlow = 3;
+constexpr std::uint8_t kAlmost = 4;     // and from there on
+constexpr std::uint8_t kConfirmed = 6;  // and in balance between all looks but the last
+
+/// Does its memory hold where particles are to be, rather than where they were?
+bool isForetold(std::uint8_t looks) { return looks >= kSlow && looks % 2 == 1; }
+
+// Quanta. What is measured between whole ones is wrong by up to 2 an axis.
+constexpr double kPerBound = 32, kRounding = 3;
+
+/// The number of whole quanta modulo 2^16; of numbers up to 2^51.
+std::uint16_t residue(double quanta)
+{
+    constexpr double kUnits = 0x1.8p52;  // added to it, the last bits of a double are units
+    return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(quanta + kUnits));
+}
+
+double squaredNorm(double x, double y) { return x * x + y * y; }
+
+/// Is a length in quanta surely not above the most?
+bool isWithin(double length, double most) { return length == 0 || length + kRounding <= most; }
+
+/// Quanta from what its memory holds.
 double farthest(const State& state, const BodyRecord& body)
 {
+    const RestWatch& watch = body.soft->watch;
+    const double per = 1 / watch.quantum;
     double squared = 0;
-    for (Index k = 0; k < body.nodes.count; ++k)
-        squared =
-            std::max(squared, (state.nodes.position[body.nodes.first + k] - body.soft->watch.places[k]).squaredNorm());
+    for (Index k = 0; k < body.nodes.count; ++k) {
+        const Vec2& at = state.nodes.position[body.nodes.first + k];
+        squared = std::max(
+            squared,
+            squaredNorm(static_cast<std::int16_t>(residue(at.x() * per) - watch.places[2 * std::size_t{k}]),
+                        static_cast<std::int16_t>(residue(at.y() * per) - watch.places[2 * std::size_t{k} + 1])));
+    }
     return std::sqrt(squared);
+}
+
+/// Notes where particles are, to tell motions of a part of `least` units.
+void keepPlaces(const State& state, const BodyRecord& body, double least)
+{
+    RestWatch& watch = body.soft->watch;
+    double size = body.length;
+    for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+        size = std::max(size, state.nodes.position[n].cwiseAbs().maxCoeff());
+    watch.quantum = std::max({least / kPerBound, 0x1p-51 * size, 1e-300});
+    const double per = 1 / watch.quantum;
+    for (Index k = 0; k < body.nodes.count; ++k)
+        for (const int axis : {0, 1})
+            watch.places[2 * std::size_t{k} + axis] = residue(state.nodes.position[body.nodes.first + k][axis] * per);
+}
+
+/// Its memory holds where they were; now, where they will be when they go on like that. Quanta the fastest went.
+double foretell(const State& state, const BodyRecord& body)
+{
+    RestWatch& watch = body.soft->watch;
+    const double went = farthest(state, body), per = 1 / watch.quantum;
+    for (Index k = 0; k < body.nodes.count; ++k)
+        for (const int axis : {0, 1}) {
+            std::uint16_t& place = watch.places[2 * std::size_t{k} + axis];
+            place =
+                static_cast<std::uint16_t>(2 * residue(state.nodes.position[body.nodes.first + k][axis] * per) - place);
+        }
+    return went;
 }
 
 /// Is much of it fast? What is pressed between others may have a speed without moving.
@@ -59,8 +117,11 @@ void Slumber::watch(State& state, double dt)
     constexpr double kTremble = 2;  // steps at the greatest speed
     const double elapsed = sinceLook_ + (1 + kTremble) * dt;
     for (BodyRecord& body : state.bodies) {
-        if (!body.soft || body.soft->watch.looks != kAlmost) continue;
-        if (!(farthest(state, body) <= elapsed * static_cast<double>(body.soft->watch.speed))) forget(body.soft->watch);
+        if (!body.soft || body.soft->watch.looks < kAlmost) continue;
+        RestWatch& watch = body.soft->watch;
+        const double foretold = isForetold(watch.looks) ? static_cast<double>(watch.slid) : 0;
+        if (!isWithin(farthest(state, body), elapsed * static_cast<double>(watch.speed) / watch.quantum + foretold))
+            forget(watch);
     }
 }
 
@@ -68,13 +129,13 @@ void Slumber::watchWithin(State& state)
 {
     if (almost_ == 0) return;
     for (BodyRecord& body : state.bodies)
-        if (body.soft && body.soft->watch.looks == kAlmost && isFast(state, body)) forget(body.soft->watch);
+        if (body.soft && body.soft->watch.looks >= kAlmost && isFast(state, body)) forget(body.soft->watch);
 }
 
-void Slumber::forget(RestWatch& watch)
+void Slumber::setLooks(RestWatch& watch, std::uint8_t looks)
 {
-    almost_ -= watch.looks == kAlmost;
-    watch.looks = 0;
+    almost_ -= watch.looks >= kAlmost, almost_ += looks >= kAlmost;
+    watch.looks = looks;
 }
 
 void Slumber::disturb(State& state, Index body)
@@ -107,6 +168,8 @@ void Slumber::judge(State& state, const SoftSprings& springs, const Actuators& a
             forget(is.soft->watch);
             continue;
         }
+        // For all at the first look, not when they come to rest: a world in its rhythm takes no memory.
+        is.soft->watch.places.resize(2 * std::size_t{is.nodes.count});
         if (isFast(state, is)) {
             forget(is.soft->watch);
             continue;
@@ -137,44 +200,49 @@ Slumber::Bounds Slumber::boundsOf(const State& state, Index body, const SoftSpri
     return bounds;
 }
 
-/// Was it still between the last two looks and this one, and near its place at the last one all the time?
+/// Was it still between the last three looks and this one, and near its place at the last one all the time?
 bool Slumber::look(State& state, Index body, const Bounds& bounds, double interval)
 {
-    RestWatch& watch = state.bodies[body].soft->watch;
-    const Range& own = state.bodies[body].nodes;
-    almost_ -= watch.looks == kAlmost;
-    const std::uint8_t looks = watch.looks;
-    if (looks < 2) {  // what falls, or turns round, is slow for once: no memory for that
-        const auto speed = static_cast<float>(state.nodes.velocity[own.first].norm());
+    const BodyRecord& is = state.bodies[body];
+    RestWatch& watch = is.soft->watch;
+    const double slow = bounds.speed * interval, balanced = bounds.bend * interval * interval;  // units
+    const auto start = [&](std::uint8_t looks) {
+        keepPlaces(state, is, std::min(slow, balanced));
+        watch.speed = static_cast<float>(std::min(bounds.speed, 1e30)), watch.slid = 0;
+        setLooks(watch, looks);
+    };
+    if (watch.looks < kPlaces) {  // what falls, or turns round, is slow for once
+        const auto speed = static_cast<float>(state.nodes.velocity[is.nodes.first].norm());
         const bool falls = !(static_cast<double>(std::abs(speed - watch.speed)) <= bounds.fall * interval);
+        const bool first = watch.looks == 0;
         watch.speed = speed;
-        if (looks == 0 || falls) {
-            watch.looks = 1;
-            return false;
+        if (first || falls) {
+            setLooks(watch, 1);
+        } else {
+            start(kPlaces);
         }
+        return false;
     }
-    if (watch.places.capacity() < own.count) {  // where one comes to rest, others will
-        for (BodyRecord& body : state.bodies)
-            if (body.soft && body.soft->watch.mayRest && !body.fixed)
-                body.soft->watch.places.reserve(body.nodes.count),
-                    body.soft->watch.speeds.reserve(2 * std::size_t{body.nodes.count});
+    const std::uint8_t looks = watch.looks;
+    if (isForetold(looks)) {
+        const double bend = farthest(state, is);
+        const bool fine = isWithin(bend, balanced / watch.quantum);
+        const double slid = (static_cast<double>(watch.slid) + bend) * watch.quantum;
+        start(!fine ? kPlaces : looks == kSlow ? kAlmost : kConfirmed);
+        watch.slid = static_cast<float>(slid / watch.quantum);
+        return watch.looks == kConfirmed;
     }
-    watch.places.resize(own.count), watch.speeds.resize(2 * std::size_t{own.count});
-    watch.speed = static_cast<float>(std::min(bounds.speed, 1e30)), watch.looks = 2;
-    double fastest = 0, bend = 0;
-    for (Index k = 0; k < own.count; ++k) {
-        const Vec2& at = state.nodes.position[own.first + k];
-        const Vec2 speed = looks > 1 ? Vec2((at - watch.places[k]) / interval) : Vec2(0, 0);
-        const Vec2 before(static_cast<double>(watch.speeds[2 * k]), static_cast<double>(watch.speeds[2 * k + 1]));
-        fastest = std::max(fastest, speed.squaredNorm()), bend = std::max(bend, (speed - before).squaredNorm());
-        watch.places[k] = at;
-        watch.speeds[2 * k] = static_cast<float>(speed.x()), watch.speeds[2 * k + 1] = static_cast<float>(speed.y());
+    const double before = static_cast<double>(watch.slid), went = foretell(state, is);
+    watch.slid = static_cast<float>(went);
+    if (!isWithin(went, slow / watch.quantum)) {
+        start(kPlaces);
+        return false;
     }
-    if (looks == 1 || !(std::sqrt(fastest) <= bounds.speed)) return false;
-    watch.looks = 3;
-    if (looks == 2 || !(std::sqrt(bend) <= bounds.bend * interval)) return false;
-    watch.looks = kAlmost, ++almost_;
-    return looks == kAlmost;
+    // What is slow enough twice is in balance, whatever its directions.
+    const bool confirmed =
+        looks >= kConfirmed || (looks >= kAlmost && isWithin(before + went, balanced / watch.quantum));
+    setLooks(watch, confirmed ? kConfirmed + 1 : looks + 1);
+    return confirmed;
 }
 
 void Slumber::fallAsleep(State& state, Index body)
@@ -222,9 +290,11 @@ bool Slumber::fits(const State& state) const
     for (const BodyRecord& body : state.bodies) {
         if (!body.soft) continue;
         const RestWatch& watch = body.soft->watch;
-        if (watch.looks > kAlmost || (watch.looks > 1 && watch.places.size() != body.nodes.count)) return false;
-        if (watch.speeds.size() != 2 * watch.places.size()) return false;
-        almost += watch.looks == kAlmost, sleepers += body.asleep;
+        if (watch.looks > kConfirmed + 1) return false;
+        if (watch.looks >= kPlaces &&
+            (watch.places.size() != 2 * std::size_t{body.nodes.count} || !(watch.quantum > 0)))
+            return false;
+        almost += watch.looks >= kAlmost, sleepers += body.asleep;
     }
     return almost == almost_ && sleepers == sleepers_;
 }

@@ -11,6 +11,10 @@
 // which says that what is left of its motion takes no particle farther than 0.0002 of its length. omega is that of the
 // whole body on its weakest spring: lattices swing faster. What still flows (SoftMatter::yield) does not rest.
 //
+// Places are kept in 4 bytes a particle: as whole quanta, a 32nd of what may pass, modulo 2^16 of them. At one look the
+// memory holds places, and the next tells the mean speed since; then it holds where each particle is to be at the look
+// after, going on like that, and that one tells by how much the mean speed changed.
+//
 // Alternative that lost: the centre of mass and the angle alone, which is cheaper, and does not see a body that
 // breathes.
 #pragma once
@@ -66,8 +70,8 @@ public:
             RestWatch& watch = body.soft->watch;
             with(watch.mayRest), with(watch.looks), with(watch.speed);
             if (watch.looks < 2) continue;
-            with.list(watch.places, [&](Vec2& place) { with(place); });
-            with.list(watch.speeds, [&](float& speed) { with(speed); });
+            with(watch.slid), with(watch.quantum);
+            with.list(watch.places, [&](std::uint16_t& place) { with(place); });
         }
     }
     /// Does what was read back fit the state?
@@ -80,11 +84,10 @@ private:
         double speed = 0, bend = 0;  // units / s, units / s²
         double fall = 0;             // units / s²: what changes its speed by more is not worth a look
     };
-    static constexpr std::uint8_t kAlmost = 4;  // of RestWatch::looks
-
     Bounds boundsOf(const State&, Index body, const SoftSprings&, const WorldSettings&) const;
     bool look(State&, Index body, const Bounds&, double interval);
-    void forget(RestWatch&);
+    void setLooks(RestWatch&, std::uint8_t looks);
+    void forget(RestWatch& watch) { setLooks(watch, 0); }
 
     std::vector<Index> islands_;  // [bodies]; empty: none sleeps with a soft one
     std::vector<Index> stirred_;

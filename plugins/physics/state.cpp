@@ -109,8 +109,7 @@ std::size_t bytesOf(const State& state)
         roomOf(state.bodies);
     for (const BodyRecord& body : state.bodies)
         if (body.soft)
-            sum += sizeof(SoftRecord) +
-                   roomOf(body.soft->pieces, body.soft->restArms, body.soft->watch.places, body.soft->watch.speeds);
+            sum += sizeof(SoftRecord) + roomOf(body.soft->pieces, body.soft->restArms, body.soft->watch.places);
     return sum;
 }
 

@@ -85,10 +85,11 @@ struct Range {
 /// How a soft body moved between the last looks at it: slumber.hpp.
 struct RestWatch {
     bool mayRest = true, drawnMayRest = true;
-    std::uint8_t looks = 0;     // 1: places are known; 2: speeds, too; 3: it was still
-    float speed = 0;            // units / s, at which it may come away from them
-    std::vector<Vec2> places;   // [nodes] at the last look
-    std::vector<float> speeds;  // [2 nodes] mean before it, units / s
+    std::uint8_t looks = 0;             // 1: one speed is known; 2: places; from 3 on it was slow, from 4 on in balance
+    float speed = 0;                    // units / s, at which it may come away from its places
+    float slid = 0;                     // quanta that the fastest particle moved between the last two looks at places
+    double quantum = 0;                 // units
+    std::vector<std::uint16_t> places;  // [2 nodes] quanta modulo 2^16: at the last look, or foretold for the next
 };
 
 /// What only soft bodies have.

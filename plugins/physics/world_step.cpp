@@ -110,6 +110,7 @@ void World::stepPart(double dt)
         for (ContactPoint& c : contacts_.points) c.normalImpulse *= ratio, c.tangentImpulse *= ratio;
         softContacts_.scale(ratio);
         softJoints_.scale(ratio);
+        actuators_.scale(ratio);
         impulsesOf_ = h;
     }
 
@@ -203,7 +204,13 @@ void World::substep(double h, int index, int count)
 {
     const double gravity = settings_.applyGravity ? settings_.gravity.norm() : 0;
     softContacts_.refresh(state_, h, gravity);
-    const bool accounts = !plain_ && accounts_.any();
+    const bool accounts = !plain_ && accounts_.any(), backwards = index % 2 == 1;
+    const bool brakes = !plain_ && actuators_.brakes();
+    const auto brake = [&](bool back) {
+        if (accounts) accounts_.begin(state_);
+        actuators_.brake(state_, h, back);
+        if (accounts) accounts_.end(state_);
+    };
     {
         const Stopwatch watch(stats_.springsMs);
         if (accounts) accounts_.begin(state_);
@@ -219,7 +226,6 @@ void World::substep(double h, int index, int count)
         springs_.addForces(state_);
         if (plain_) springs_.addAngularForces(state_), actuators_.addSpringForces(state_);
         integrateVelocities(state_, settings_, springs_, h, pushed);
-        const bool backwards = index % 2 == 1;
         if (!plain_) springs_.applyAngular(state_, h, backwards);
         soft::applyPressure(state_, h);
         const std::span<const double> offs = settings_.findCollisions ? finder_.offs() : std::span<const double>();
@@ -231,10 +237,11 @@ void World::substep(double h, int index, int count)
     }
     const Stopwatch watch(stats_.solverMs);
     wholes_.keep(state_);
-    rigid_.push(state_);
+    rigid_.push(state_, brakes ? std::function<void()>([&] { brake(backwards); }) : nullptr);
     if (accounts) accounts_.begin(state_);
     softJoints_.push(state_, h);
     if (accounts) accounts_.end(state_);
+    if (brakes && !softJoints_.empty()) brake(backwards);  // theirs start no sooner
     ContactSolver solver(state_, contacts_, h, gravity);
     solver.prepare();
     solver.solve();
@@ -244,6 +251,7 @@ void World::substep(double h, int index, int count)
     integratePositions(state_, springs_, h);
     wholes_.end(state_, h);
     moveKinematic(h);
+    if (brakes) brake(!backwards);
     rigid_.relax(state_);
     if (accounts) accounts_.begin(state_);
     softJoints_.relax(state_);

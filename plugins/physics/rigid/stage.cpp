@@ -432,10 +432,15 @@ void RigidStage::exchange(State& state, bool store)
     }
 }
 
-void RigidStage::push(State& state)
+void RigidStage::push(State& state, const std::function<void()>& midst)
 {
     exchange(state, false);
     double_.warm();
+    if (midst) {
+        exchange(state, true);
+        midst();
+        exchange(state, false);
+    }
     double_.push();
     exchange(state, true);
 }

@@ -72,7 +72,8 @@ public:
 
     // Or in turns with the other stages, in double precision: begin, then each substep push and relax around the move.
     void begin(State&, const WorldSettings&, double h, double dt, StepStats&);
-    void push(State&);
+    /// `midst`: what others do after warm starting, before joints and contacts are solved.
+    void push(State&, const std::function<void()>& midst = {});
     void relax(State&);
     void finish(State&, bool bounce);
 

@@ -5,6 +5,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -17,22 +18,30 @@ constexpr int kFew = 4000, kMany = 20000;
 
 using Fill = std::function<void(PhysicsWorld&, int count)>;
 
+/// In worlds that may sleep; floating, bodies are at rest from the start.
+enum class Motion { Falling, Floating };
+
 /// Bytes of a world, with all it makes for steps and, if somebody does, for who looks at its bodies.
-double bytesOf(const Fill& fill, int count, bool look)
+double bytesOf(const Fill& fill, int count, bool look, Motion motion)
 {
     const std::size_t before = heapInUse();
     WorldSettings settings;
-    settings.gravity = {0, 98.1};
+    settings.gravity = {0, motion == Motion::Falling ? 98.1 : 0};
     const auto world = physics::JetPhysics().createWorld(settings);
     fill(*world, count);
-    for (int i = 0; i < 30; ++i) world->step(1.0 / 60);
+    const int steps = motion == Motion::Falling ? 30 : 120;  // long enough to fall asleep
+    std::size_t most = 0;
+    for (int i = 0; i < steps; ++i) {
+        world->step(1.0 / 60);
+        if (motion == Motion::Floating) most = std::max(most, heapInUse());
+    }
     if (look) world->bodies();
-    return static_cast<double>(heapInUse()) - static_cast<double>(before);
+    return static_cast<double>(std::max(most, heapInUse())) - static_cast<double>(before);
 }
 
-double bytesEach(const Fill& fill, bool look = true)
+double bytesEach(const Fill& fill, bool look = true, Motion motion = Motion::Falling)
 {
-    return (bytesOf(fill, kMany, look) - bytesOf(fill, kFew, look)) / (kMany - kFew);
+    return (bytesOf(fill, kMany, look, motion) - bytesOf(fill, kFew, look, motion)) / (kMany - kFew);
 }
 
 RigidBodyDef boxAt(double x, double y, double halfWidth)
@@ -88,14 +97,17 @@ bool memoryIsInLimits()
 {
     const double box = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, false); });
     const double unseen = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, false); }, false);
-    const double resting = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, true); });
+    const double standing = bytesEach([](PhysicsWorld& world, int count) { addBoxes(world, count, true); });
     const double particle = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 0, 0); });
+    const double resting =
+        bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 0, 0); }, true, Motion::Floating);
     const double sprung = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 4, 0); });
     const double tearing = bytesEach([](PhysicsWorld& world, int count) { addRow(world, count, 4, 2); });
     bool fine = print("rigid body (box)", box, 700);
     print("  nobody looks at", unseen);
-    print("contact of two points", resting - box);
+    print("contact of two points", standing - box);
     fine = print("particle", particle, 120) && fine;
+    fine = print("particle that rests", resting, 120) && fine;
     fine = print("spring", (sprung - particle) / 4, 64) && fine;
     return print("spring that may tear", (tearing - particle) / 4, 64) && fine;
 }

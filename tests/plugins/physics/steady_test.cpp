@@ -144,7 +144,6 @@ std::unique_ptr<PhysicsWorld> pile(int balls, bool torn)
 {
     WorldSettings settings;
     settings.gravity = {0, 98};
-    settings.allowSleep = false;  // when the first of a world's bodies comes to rest, memory is taken to watch them
     auto world = JetPhysics().createWorld(settings);
     for (int i = 0; i < balls; ++i) {
         SoftBodyDef ball = defaultBall({50.0 * (i % 3) + 7 * (i / 3), -30 - 50.0 * (i / 3)}, 20, 40);
