@@ -3,6 +3,7 @@
 // keeps to eighths of a turn, Esc gives up.
 #include <jet/body_point.hpp>
 #include <jet/catalog.hpp>
+#include <jet/item_type.hpp>
 #include <jet/plugin.hpp>
 #include <jet/tool.hpp>
 
@@ -152,10 +153,12 @@ private:
     {
         if (from.isBackground()) return "There is no body at the start: drag from the point of a body that is pushed.";
         if (!(arrow.norm() > 0)) return "The arrow has no length: drag it the way the body is to be pushed.";
-        if (!host().scene().catalog().itemType("force"))
+        const jet::ItemType* type = host().scene().catalog().itemType("force");
+        if (!type)
             return "Forces need the plugin org.jet.items.physics, which is not there: " +
                    host().scene().catalog().explain(jet::ContributionKind::ItemType, "force");
-        return {};
+        const auto fits = type->properties().find("value")->check(force(arrow));
+        return fits ? std::string() : "No force is as strong as this arrow is long: " + fits.error().message;
     }
 
     void create(const jet::BodyPoint& from, const jet::Vec2& arrow)

@@ -112,6 +112,9 @@ TEST_F(ForceToolTest, WhatPushesNothingIsSaidAndLeavesNothing)
     EXPECT_EQ(host().status, "There is no body at the start: drag from the point of a body that is pushed.");
     force().click({10, 10}).click({10, 10});
     EXPECT_EQ(host().status, "The arrow has no length: drag it the way the body is to be pushed.");
+    host().values.set("scale", 1e9);
+    force().drag({10, 10}, {4000, 10});
+    EXPECT_EQ(host().status.find("No force is as strong as this arrow is long: "), 0u) << host().status;
     EXPECT_EQ(scene().hash(), before);
 }
 
