@@ -27,7 +27,7 @@ TEST(Motion, AStepTellsItsSubstepsAndThoseOfItsParts)
     for (const bool soft : {false, true}) {
         auto world = makeWorld({0, 100});
         world->addRigidBody(box({0, 0}, 10, 10));
-        if (soft) world->addSoftBody(softBall({200, 0}, 30, 5));
+        if (soft) world->addSoftBody(softBall({200, 0}, 30, 0.5, 0.01));
         world->step(kStep);
         EXPECT_EQ(world->stats().substeps, 8U) << "480 a second";
         world->step(0.1);
