@@ -133,7 +133,7 @@ class Scene:
         self.fixed("Ground", rectangle(320, 345, 660, 50))
 
 
-def write(name, title, scene, steps, expect, engines=BOTH, picture=None, keys=()):
+def write(name, title, scene, steps, expect, engines=BOTH, picture=None, keys=(), view=()):
     folder = HERE / name
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "scenes").mkdir(parents=True)
@@ -169,6 +169,6 @@ def write(name, title, scene, steps, expect, engines=BOTH, picture=None, keys=()
         (folder / "keys.json").write_text(f'{{ "events": [\n{events}\n] }}\n')
     (folder / "expect.json").write_text(json.dumps(wanted, indent=1, ensure_ascii=False) + "\n")
     subprocess.run([JET, "project", "save", folder], check=True, stdout=subprocess.DEVNULL)
-    # `picture` is the step of the README's picture.
-    subprocess.run([JET, "play", folder, "--steps", str(picture or steps), "--width", "640", "--height", "360", "--physics",
-                    engines[0], *pressed, "--snapshot", HERE / "pictures" / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)
+    # `picture` is the step of the README's picture. It shows the page, or where a game moves its camera its `view`.
+    sized = ["--width", str(view[0]), "--height", str(view[1])] if view else []
+    subprocess.run([JET, "play", folder, "--steps", str(picture or steps), *sized, "--physics", engines[0], *pressed, "--snapshot", HERE / "pictures" / f"{name}.png"], check=True, stdout=subprocess.DEVNULL)

@@ -33,7 +33,8 @@ JetSystem.addEventListener("onPostPaint", function (event) {
 """)
     # Two seconds' rest, five to the right over the hills, two of braking, then back for two.
     keys = [(120, "Right", True), (420, "Right", False), (420, "Down", True), (540, "Down", False), (540, "Left", True), (660, "Left", False)]
-    write("driving", "Driving", s, 540, [{"item": "Chassis", "x": [480, 800], "y": [255, 275], "angle": [-0.1, 0.1]}], keys=keys, picture=250)
+    write("driving", "Driving", s, 540, [{"item": "Chassis", "x": [480, 800], "y": [255, 275], "angle": [-0.1, 0.1]}], keys=keys, picture=250,
+          view=(640, 360))
 
 
 def rays():

@@ -183,3 +183,38 @@ def pins():
     s.soft("Loose", rectangle(560, 100, 60, 40), GREY, mass=1, ks=60, kd=0.6)
     write("pins", "Pins", s, 480, [{"item": "Cloth", "y": [60, 220]}, {"item": "Ball", "y": [0, 260]}, {"item": "Loose", "y": [285, 315]}],
           JET_ALONE, picture=200)
+
+
+def jelly():
+    s = Scene()
+    s.ground()
+    # Three that fall, wobble, and come to rest, with what lies on them; one may not sleep.
+    s.soft("Lower", rectangle(160, 270, 90, 50), RED, mass=2, ks=300, kd=6, shape_stiffness=600, shape_damping=3)
+    s.soft("Upper", rectangle(165, 190, 70, 50), GOLD, mass=1, ks=300, kd=6, shape_stiffness=600, shape_damping=3)
+    s.rigid("Plank", rectangle(160, 130, 60, 14), WOOD, 0.5)
+    s.soft("Alone", polygon([(285, 240), (355, 240), (340, 180), (300, 180)]), GREEN, mass=1, ks=300, kd=6, shape_stiffness=600, shape_damping=3)
+    s.soft("Never", rectangle(480, 280, 60, 60), BLUE, {"allow-sleep": False}, mass=1, ks=300, kd=6, shape_stiffness=600,
+           shape_damping=3)
+    write("jelly", "Jelly", s, 900, [
+        {"item": name, "awake": False} for name in ("Lower", "Upper", "Plank", "Alone")] + [
+        {"item": "Never", "awake": True}, {"item": "Lower", "y": [285, 300]}, {"item": "Upper", "above": "Lower", "by": 35}],
+        JET_ALONE, picture=75)
+
+
+def regions():
+    s = Scene()
+    s.ground()
+    s.fixed("Wall", rectangle(40, 170, 30, 260), STEEL)
+    # The same bars, welded to the wall by what is nearest, and by regions that reach farther and farther in.
+    for name, y, radius, color in (("Nearest", 80, 0, GREY), ("Small", 150, 24, BLUE), ("Large", 220, 60, GREEN)):
+        s.soft(f"{name} bar", rectangle(165, y, 200, 30), color, mass=1, ks=400, kd=6)
+        s.joint(f"{name} weld", line((50, y), (75, y), (76, y)), "weld", radius=radius)
+    # A lamp on a soft arm: the joint takes a patch of the arm along, and the arm bends.
+    s.soft("Arm", rectangle(480, 80, 200, 20), WOOD, mass=1, ks=800, kd=10)
+    s.joint("Arm weld", line((400, 40), (400, 80), (402, 80)), "weld", radius=30)
+    s.rigid("Lamp", circle(570, 140, 14), GOLD, 0.3)
+    s.joint("Cord", line((570, 80), (570, 140)), "rope", radius=14)
+    write("regions", "Regions", s, 400, [
+        {"item": "Nearest bar", "angle": [0.06, 0.1]}, {"item": "Small bar", "angle": [0.025, 0.045]},
+        {"item": "Large bar", "angle": [0.012, 0.03]}, {"item": "Arm", "angle": [0.03, 0.08]},
+        {"item": "Lamp", "y": [140, 155]}], JET_ALONE, picture=300)

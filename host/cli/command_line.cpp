@@ -1,5 +1,6 @@
 #include "check_commands.hpp"
 #include "commands.hpp"
+#include "debug_marks.hpp"
 #include "package_commands.hpp"
 #include "packed_commands.hpp"
 #include "plugin_new_command.hpp"
@@ -63,6 +64,12 @@ std::string timeStepFault(std::string& text)
            numberText(setting.maximum);
 }
 
+std::string debugFault(std::string& text)
+{
+    const auto marks = host::debugMarks(text);
+    return marks ? std::string() : marks.error().message;
+}
+
 /// In scripts it comes of a variable that is not set: files would go unwritten, or into the folder one is in.
 void refuseEmptyValues(CLI::App& app)
 {
@@ -97,7 +104,13 @@ void addPlay(CLI::App& app, Parsed& parsed)
         ->type_name("S")
         ->check(CLI::Validator(timeStepFault, ""));
     play->add_option("--input", o.input, "Recorded keys to play back")->type_name("FILE");
-    play->add_option("--snapshot", o.snapshot, "Picture of the last step, through the game's camera")->type_name("PNG");
+    auto* snapshot = play->add_option("--snapshot", o.snapshot, "Picture of the last step, through the game's camera");
+    snapshot->type_name("PNG");
+    play->add_option("--debug", o.debug,
+                     "What the picture shows of the physics: contacts, islands, stress, boxes, centres, joints, or all")
+        ->type_name("WORD,...")
+        ->needs(snapshot)
+        ->check(CLI::Validator(debugFault, ""));
     play->add_option("--state", o.state, "State after the last step, as JSON")->type_name("JSON");
     play->add_option("--record", o.record, "Write what was played, with a hash a second")->type_name("FILE");
     play->add_option("--seed", o.seed, "Seed of the scripts' random numbers")
@@ -109,8 +122,13 @@ void addPlay(CLI::App& app, Parsed& parsed)
     play->add_option("--physics", o.physics,
                      "Physics engine instead of the scene's, or its plugin; 'jet plugins list' has them")
         ->type_name("ID");
-    play->add_option("--width", o.width, "Width of the view in pixels")->check(CLI::Range(1, 16384));
-    play->add_option("--height", o.height, "Height of the view in pixels")->check(CLI::Range(1, 16384));
+    play->add_option("--width", o.width,
+                     "Width of the view in pixels, 1280 if not given; the picture shows the page then")
+        ->type_name("PX")
+        ->check(CLI::Range(1, 16384));
+    play->add_option("--height", o.height, "Height of the view, 720 if not given")
+        ->type_name("PX")
+        ->check(CLI::Range(1, 16384));
     play->callback([&parsed] { parsed.run = [&](Session& s) { return host::play(s, parsed.play); }; });
 }
 

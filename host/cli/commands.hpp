@@ -17,7 +17,8 @@ struct PlayOptions {
     std::optional<double> timeStep;
     std::uint64_t seed = 1;
     int threads = 1;
-    int width = 1280, height = 720;
+    int width = 0, height = 0;  ///< of the view; 0: as usual, and the picture shows the page
+    std::string debug;          ///< what the picture shows of the physics (debug_marks.hpp)
 };
 
 struct ConvertOptions {

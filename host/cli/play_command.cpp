@@ -1,19 +1,43 @@
+#include "debug_marks.hpp"
 #include "project_access.hpp"
 #include "recorded_input.hpp"
 
 #include "host/projects/setting_place.hpp"
 
 #include <jet/format.hpp>
+#include <jet/physics_view.hpp>
+#include <jet/scene_painter.hpp>
 #include <jet/simulation.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 namespace jet::host {
 
 namespace {
+
+constexpr int kViewWidth = 1280, kViewHeight = 720;  // pixels, unless told otherwise
+constexpr double kMaxSide = 16384;                   // pixels, as --width and --height take
+
+/// A game as it is now, with marks of its physics.
+class MarkedPlay final : public PoseSource, public SceneOverlay {
+public:
+    MarkedPlay(const Simulation& simulation, const PhysicsMarks& marks)
+        : simulation_(simulation), marks_(marks), picture_(simulation.physicsPicture())
+    {
+    }
+    const Path* pose(const Item& item) const override { return simulation_.pose(item); }
+    const LiveBody* liveBody(const Item& item) const override { return simulation_.liveBody(item); }
+    void paintOver(Painter& painter) const override { paintPhysics(picture_, marks_, painter); }
+
+private:
+    const Simulation& simulation_;
+    PhysicsMarks marks_;
+    PhysicsPicture picture_;
+};
 
 /// One headless run: steps the simulation, follows playScene(), keeps the hashes for --record.
 class Player {
@@ -81,7 +105,7 @@ private:
         options.physics = engineId(options_.physics);
         options.seed = options_.seed;
         options.threads = options_.threads;
-        options.viewSize = Vec2(options_.width, options_.height);
+        options.viewSize = viewSize();
         options.sceneByName = [this](std::string_view name) { return project_.scene(name); };
         auto started = Simulation::start(scene, options);
         if (!started) return placed(started.error(), scene);
@@ -153,15 +177,36 @@ private:
                      Location{options_.snapshot.string(), 0, 0});
     }
 
+    Vec2 viewSize() const
+    {
+        return {options_.width > 0 ? options_.width : kViewWidth, options_.height > 0 ? options_.height : kViewHeight};
+    }
+
+    /// The view, if it was asked for or the game moved its camera; else the page, as far as there is one.
+    Vec2 pictureSize() const
+    {
+        const View& camera = simulation_->view().view;
+        const Scene& scene = simulation_->scene();
+        const Vec2 page(std::ceil(scene.setting("page-width").as<double>()),
+                        std::ceil(scene.setting("page-height").as<double>()));
+        const bool untouched = camera.anchor == Vec2(0, 0) && camera.scale == 1;
+        const bool fits = page.minCoeff() > 0 && page.maxCoeff() <= kMaxSide;
+        return options_.width == 0 && options_.height == 0 && untouched && fits ? page : simulation_->view().size;
+    }
+
     Result<void> snapshot()
     {
+        std::optional<MarkedPlay> marked;
+        if (!options_.debug.empty()) marked.emplace(*simulation_, *debugMarks(options_.debug));
+        const PoseSource& poses = marked ? static_cast<const PoseSource&>(*marked) : *simulation_;
+        const Vec2 size = pictureSize();
         std::vector<FormatNote> notes;
         const Color background = simulation_->scene().setting("background").as<Color>();
         ExportRequest request{simulation_->scene(),
-                              simulation_.get(),
+                              &poses,
                               simulation_->view().view,
-                              options_.width,
-                              options_.height,
+                              static_cast<int>(size.x()),
+                              static_cast<int>(size.y()),
                               background,
                               options_.snapshot,
                               notes,

@@ -26,7 +26,9 @@ void draw(const ExportRequest& request, const Frame& frame, QImage& image)
     QPainter target(&image);
     ui::QtPainter painter(target);
     painter.transform(frame.toPixels);
-    paintScene(request.scene, request.poses, PaintPurpose::Export, frame.visible(), painter);
+    // A game that runs is shown as its player sees it, springs and joints included.
+    const PaintPurpose purpose = request.poses ? PaintPurpose::Play : PaintPurpose::Export;
+    paintScene(request.scene, request.poses, purpose, frame.visible(), painter);
 }
 
 Result<std::vector<std::byte>> encoded(const QImage& image)

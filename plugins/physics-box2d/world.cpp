@@ -10,9 +10,19 @@
 
 namespace jet::box2d {
 
-World::World(const WorldSettings& settings) : settings_(settings)
+namespace {
+
+void check(const WorldSettings& settings)
 {
     checks().check(settings);
+    if (settings.method == Method::SemiImplicitEuler) fail("it has a method of its own, and no semi-implicit Euler.");
+}
+
+}  // namespace
+
+World::World(const WorldSettings& settings) : settings_(settings)
+{
+    check(settings);
     stage_ = std::make_unique<Stage>(settings);
 }
 
@@ -225,7 +235,7 @@ bool World::springAlive(BodyHandle, std::uint32_t) const { fail("soft bodies are
 
 void World::setSettings(const WorldSettings& settings)
 {
-    checks().check(settings);
+    check(settings);
     if (settings.materialCount != settings_.materialCount)
         fail("the number of materials cannot change while the world runs.");
     doesSpecial([settings](Stage& stage) { stage.setSettings(settings); });

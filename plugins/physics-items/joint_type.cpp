@@ -3,6 +3,7 @@
 // the background.
 #include "item_types.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -40,6 +41,13 @@ Vec2 pivotOf(const Path& path)
 {
     const std::size_t count = path.segmentCount();
     return path.segment(count > 2 ? count / 2 : count - 1).point;
+}
+
+/// An effect draws it, as a rope or a rod: at play that is all there is to see.
+bool hasLook(const Item& item)
+{
+    return std::any_of(item.effects().begin(), item.effects().end(),
+                       [](const EffectInstance& effect) { return effect.visible; });
 }
 
 template <class T>
@@ -92,13 +100,19 @@ const PropertyTable& JointType::properties() const
         real("ratio", "Pulley ratio", 1).range(1e-3, 1e3),
         real("break-force", "Breaks at", 0).in("mass·unit/s²").range(0, 1e12).says("0: never."),
         flag("collide", "Joined bodies collide", false),
+        real("radius", "Holds within", 0)
+            .in("units")
+            .range(0, 1e9)
+            .says(
+                "Of a soft body: all of it that is no farther from where the joint holds it; 0: only what is nearest."),
     };
     return table;
 }
 
 void JointType::paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const
 {
-    if (purpose != PaintPurpose::Edit || path.isEmpty() || path.segmentCount() < 2) return;
+    if (purpose == PaintPurpose::Export || path.segmentCount() < 2) return;
+    if (purpose == PaintPurpose::Play && hasLook(item)) return;
     Pen pen;
     pen.color = kJoint;
     pen.width = 2;
@@ -130,6 +144,7 @@ void JointType::build(const Item& item, WorldBuilder& builder) const
     // A mouse joint pulls b: Box2D's moves nothing else.
     if (def.kind == Kind::Mouse && def.b.body == kNoHandle) std::swap(def.a, def.b);
     if (hasPivot(def.kind)) def.a.point = def.b.point = pivotOf(path);
+    def.a.radius = def.b.radius = get<double>(item, properties(), "radius");
     if (def.kind == Kind::Pulley) def.groundA = path.segment(1).point, def.groundB = path.segment(count - 2).point;
     try {
         builder.world().addJoint(def);

@@ -174,6 +174,16 @@ void updateCorners(State& state, const BodyRecord& body)
     }
 }
 
+void addPoint(State& state, const BodyRecord& body, Index node, const Vec2& local, const Vec2& position)
+{
+    Points& points = state.points;
+    points.node.push_back(node);
+    points.position.push_back(position);
+    if (body.rigid) points.local.cover(points.size()), points.local[points.size() - 1] = local;
+    points.collidable.push_back(0);
+    if (!points.normal.empty()) points.normal.push_back(Vec2(0, 0));
+}
+
 void addBorders(State& state, BodyRecord& body, std::span<const std::vector<Index>> rings, Inside inside)
 {
     body.walls.first = static_cast<Index>(state.walls.size());

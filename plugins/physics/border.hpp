@@ -10,6 +10,9 @@ namespace jet::physics {
 /// What a body's rings bound: all that is inside an odd number of them, as drawn, or inside any, as of shapes.
 enum class Inside { OddRings, AnyRing };
 
+/// Appends a point to `body`'s; `local` is its place on the node, where that may turn.
+void addPoint(State&, const BodyRecord& body, Index node, const Vec2& local, const Vec2& position);
+
 /// Appends the walls of `rings` (indices of points, each ring closed) to `body`, finds their outer sides, and says
 /// which points collide. Points of zero-length walls and of borders without area end up without walls; nothing is
 /// refused.

@@ -44,16 +44,6 @@ BodyRecord& World::newBody(const BodyCommon& common, bool rigid)
     return state_.bodies.emplace_back(std::move(body));
 }
 
-void World::addPoint(const BodyRecord& body, Index node, const Vec2& local, const Vec2& position)
-{
-    Points& points = state_.points;
-    points.node.push_back(node);
-    points.position.push_back(position);
-    if (body.rigid) points.local.cover(points.size()), points.local[points.size() - 1] = local;
-    points.collidable.push_back(0);
-    if (!points.normal.empty()) points.normal.push_back(Vec2(0, 0));
-}
-
 /// A body comes that is met by points and walls.
 void World::keepNormals()
 {
@@ -116,7 +106,7 @@ BodyHandle World::addSoftBody(const SoftBodyDef& def)
         state_.nodes.addParticle(def.particles[i], def.masses[i], moves ? 1 / def.masses[i] : 0);
         nodeOf[i] = body.nodes.first + k;
     }
-    for (Index i = 0; i < count; ++i) addPoint(body, nodeOf[i], Vec2(0, 0), def.particles[i]);
+    for (Index i = 0; i < count; ++i) addPoint(state_, body, nodeOf[i], Vec2(0, 0), def.particles[i]);
     soft.inOrder = std::is_sorted(nodeOf.begin(), nodeOf.end());
     soft.mass = std::accumulate(def.masses.begin(), def.masses.end(), 0.0);
     Vec2 centre(0, 0);
@@ -168,7 +158,8 @@ BodyHandle World::addRigidBody(const RigidBodyDef& def)
     nodes.addRigid(def.mass);
     body.single = isSingle(def);
     const std::vector<std::vector<Vec2>> outlines = outlinesOf(def);
-    if (!lean_ || !body.single) keepOutline(body, outlines, def.shapes.empty() ? Inside::OddRings : Inside::AnyRing);
+    if (!outlines_.lean() || !body.single)
+        outlines_.add(body, outlines, def.shapes.empty() ? Inside::OddRings : Inside::AnyRing);
     const BodyHandle handle = setRigidMass(def, outlines, drawing);
     BodyRecord& settled = state_.bodies[handle];
     if (settled.simple) {
@@ -239,6 +230,11 @@ void World::applyMotion(BodyHandle handle)
     state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (mass * gyration * gyration) : 0;
 }
 
+void World::outlineAll()
+{
+    if (outlines_.addAll()) stale_ = true;
+}
+
 void World::extendReadings()
 {
     BodyReadings& readings = state_.readings;
@@ -257,7 +253,7 @@ void World::extendReadings()
 BodyHandle World::finishBody(BodyHandle handle, const BodyCommon& common)
 {
     complex_ += !state_.bodies[handle].simple;
-    if (!lean_) extendReadings(), state_.readings.angle[handle] = 0;
+    if (!outlines_.lean()) extendReadings(), state_.readings.angle[handle] = 0;
     rate_ = -1;
     islandsKnown_ = false;
     reread(handle);

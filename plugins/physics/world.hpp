@@ -2,11 +2,12 @@
 #pragma once
 
 #include "actuators.hpp"
-#include "border.hpp"
 #include "contact_finder.hpp"
 #include "contact_solver.hpp"
 #include "force_fields.hpp"
+#include "outlines.hpp"
 #include "queries.hpp"
+#include "reports.hpp"
 #include "rigid/stage.hpp"
 #include "shape_memory.hpp"
 #include "slots.hpp"
@@ -103,18 +104,8 @@ public:
 
 private:
     BodyRecord& newBody(const BodyCommon&, bool rigid);
-    void addPoint(const BodyRecord&, Index node, const Vec2& local, const Vec2& position);
     void keepNormals();
-    // Outlines, see world_outlines.cpp.
-    void keepOutline(BodyRecord&, const std::vector<std::vector<Vec2>>& outlines, Inside);
-    void copyOutline(BodyRecord&, const Points&, const Walls&);
     void outlineAll();
-    void tellOutlines();
-    void tellOutline(Index body);
-    template <class Visit>
-    void eachPoint(Index body, Visit&& visit) const;
-    template <class Visit>
-    void eachWall(Index body, Visit&& visit) const;
     /// What is told of the body, after it was changed between steps.
     void reread(BodyHandle);
     void extendReadings();
@@ -189,14 +180,7 @@ private:
     void reportIfAsked() const;
     const Queries& queries() const;
     void stepPart(double dt);
-    /// Which border point and which wall of the bodies' outlines meet in a contact of simple shapes.
-    void nameFeatures(Contact&) const;
     void report();
-    void reportContact(const ContactPoint&);
-    void rememberTouches();
-    bool isCompared(std::uint64_t pair) const;
-    void tellEvents();
-    double impulseBetween(std::uint64_t pair) const;
 
     template <class Archive>
     void archivePins(Archive& with)
@@ -241,23 +225,15 @@ private:
     Resting resting_;
     Queries queries_;
     Column<double> gyrations_{1};  // [bodies] units, of rigid ones that rigid_ does not have; up to the last of them
-    bool lean_ = true;             // nothing has needed the points and walls of bodies of one shape
-    Index told_ = 0;               // then: first bodies of which outlines are told as they are now,
-    std::span<Box> toldBounds_;    // in memory of steps
-    std::span<Vec2> toldPoints_;
+    // What is told of the last step is worked out when somebody asks.
+    mutable Outlines outlines_{state_, rigid_};
+    mutable Reports reports_;
     bool settled_ = false;                 // has it been stepped?
     bool stale_ = false;                   // points and readings are older than the nodes
-    bool untold_ = false;                  // so are the reports
     Index softMovers_ = 0;                 // soft bodies that are not fixed
     Index complex_ = 0;                    // bodies that go by points and walls
-    std::vector<ContactPoint> ended_;      // pushed in this step, but are over
     Column<Vec2> stepForces_{Vec2(0, 0)};  // [nodes] of applyForce, for the next step only; no rows before the first
     bool pushed_ = false;                  // is any of them not null?
-    std::vector<Contact> reports_;
-    std::vector<std::uint64_t> touching_;  // sorted pairs of handles, the smaller one high
-    std::vector<std::uint64_t> touchedBefore_;
-    std::vector<ContactEvent> events_;
-    bool watched_ = false, eventsTold_ = false;  // did somebody ask for events; are they those of the last step?
     StepStats stats_;
     std::vector<Index> islands_;  // [bodies] kNone: none, or asleep
     bool islandsKnown_ = false;   // are they those of the last step?

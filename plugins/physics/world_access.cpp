@@ -8,19 +8,9 @@ namespace jet::physics {
 
 BodyStates World::bodies() const
 {
-    const BodyReadings& readings = state_.readings;
-    if (lean_) {
-        const_cast<World*>(this)->tellOutlines();  // caches of what the nodes say
-        const Nodes& nodes = state_.nodes;
-        return {nodes.position,
-                nodes.angle.values(),
-                nodes.velocity,
-                nodes.omega.values(),
-                toldBounds_.first(bodyCount()),
-                readings.firstPoint,
-                toldPoints_.first(readings.firstPoint.back())};
-    }
+    if (outlines_.lean()) return outlines_.tell();
     refresh();
+    const BodyReadings& readings = state_.readings;
     return {readings.position, readings.angle,      readings.velocity,     readings.omega,
             readings.bounds,   readings.firstPoint, state_.points.position};
 }
@@ -29,8 +19,14 @@ bool World::touching(BodyHandle a, BodyHandle b) const
 {
     reportIfAsked();
     if (!hasBody(a) || !hasBody(b)) return false;
-    const std::uint64_t pair = (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
-    return std::binary_search(touching_.begin(), touching_.end(), pair);
+    return reports_.touch(a, b);
+}
+
+std::span<const ContactEvent> World::contactEvents() const
+{
+    if (complex_ == 0 && !reports_.watched()) return rigid_.events();
+    reportIfAsked();
+    return reports_.events(state_, rigid_.events());
 }
 
 void World::setTorque(ActuatorHandle torque, double value)
@@ -155,7 +151,7 @@ void World::archive(Self& self, Archive& with)
     with(nodes.rotation.values());
     with(nodes.mass), with(nodes.invMass), with(nodes.invInertia.values());
     self.rigid_.archive(with);
-    if (!self.lean_) with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
+    if (!self.outlines_.lean()) with(self.state_.readings.angle);  // soft bodies: unwrapped from step to step
     self.springs_.archive(with);
     self.shapes_.archive(with);
     self.actuators_.archive(with);
@@ -197,12 +193,7 @@ void World::archive(Self& self, Archive& with)
     self.softJoints_.archive(with);
     self.accounts_.archive(with);
     self.tears_.archive(with, self.state_);
-    with.list(self.reports_, [&](Contact& c) {
-        with(c.bodyA), with(c.bodyB), with(c.particle), with(c.wall), with(c.point), with(c.edgeParameter),
-            with(c.normal);
-        with(c.penetration), with(c.impulse);
-    });
-    with.list(self.touching_, [&](std::uint64_t& pair) { with(pair); });
+    self.reports_.archive(with);
     archiveSlumber(self, with);
 }
 
@@ -317,11 +308,11 @@ void World::restore(std::span<const std::byte> bytes)
     finder_.exclude(softJoints_.excluded());
     queries_.outdate();
     rate_ = -1;
-    stale_ = untold_ = islandsKnown_ = eventsTold_ = false;
-    touchedBefore_ = touching_;  // what was restored began before
-    told_ = 0;
+    stale_ = islandsKnown_ = false;
+    reports_.restored();
+    outlines_.forget();
     updatePoints(state_);
-    if (!lean_) updateReadings(state_);
+    if (!outlines_.lean()) updateReadings(state_);
 }
 
 }  // namespace jet::physics

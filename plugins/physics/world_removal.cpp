@@ -141,8 +141,7 @@ void World::forgetContacts(BodyHandle body)
 {
     const auto has = [body](const auto& contact) { return contact.bodyA == body || contact.bodyB == body; };
     if (std::erase_if(contacts_.points, has) > 0) contacts_.begin(state_);
-    std::erase_if(ended_, has);
-    std::erase_if(reports_, has);
+    reports_.forget(body);
     softContacts_.remove(body);
     accounts_.forget(body);
 }

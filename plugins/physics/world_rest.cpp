@@ -241,7 +241,7 @@ const std::vector<Index>& World::islands() const
         if (a == kNone || b == kNone || !grouped(a) || !grouped(b)) return;
         unite(root, a, b);
     };
-    for (const std::uint64_t pair : touching_) {
+    for (const std::uint64_t pair : reports_.touching()) {
         const Index a = static_cast<Index>(pair >> 32), b = static_cast<Index>(pair);
         if (!state_.bodies[a].sensor && !state_.bodies[b].sensor) join(a, b);
     }
@@ -279,7 +279,7 @@ bool World::skipStep()
     const bool skips = onlySimple() ? rigid_.anyAsleep() && rigid_.allAsleep(state_) : nothingMoves();
     if (!skips) return false;
     stats_ = StepStats();
-    stats_.contacts = static_cast<std::uint32_t>(reports_.size());
+    stats_.contacts = static_cast<std::uint32_t>(reports_.contacts().size());
     rigid_.skip();
     if (pushed_) std::fill(stepForces_.values().begin(), stepForces_.values().end(), Vec2(0, 0));
     pushed_ = false;

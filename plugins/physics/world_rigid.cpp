@@ -31,7 +31,8 @@ void World::stepSimple(double dt)
     }
     pushed_ = false;
     contacts_.points.clear();
-    stale_ = untold_ = true;
+    stale_ = true;
+    reports_.setDue(true);
 }
 
 void World::moveKinematic(double h)
@@ -52,28 +53,22 @@ void World::refresh() const
     auto& self = const_cast<World&>(*this);  // caches of what the nodes say
     self.stale_ = false;
     updatePoints(self.state_);
-    if (!lean_) updateReadings(self.state_);
+    if (!outlines_.lean()) updateReadings(self.state_);
 }
 
-void World::reread(BodyHandle handle)
-{
-    if (!lean_) return updateReading(state_, handle);
-    if (handle < told_) tellOutline(handle);
-}
+void World::reread(BodyHandle handle) { outlines_.lean() ? outlines_.retell(handle) : updateReading(state_, handle); }
 
 void World::reportIfAsked() const
 {
-    if (!untold_) return;
+    if (!reports_.due()) return;
     refresh();
-    auto& self = const_cast<World&>(*this);
-    self.untold_ = false;
-    self.report();
+    const_cast<World&>(*this).report();  // stages bring what they keep into the form it is told in
 }
 
 std::span<const Contact> World::contacts() const
 {
     reportIfAsked();
-    return reports_;
+    return reports_.contacts();
 }
 
 StepStats World::stats() const
@@ -82,7 +77,7 @@ StepStats World::stats() const
     if (settings_.allowSleep) islands();
     StepStats stats = stats_;
     stats.memory = bytesOf(state_) + rigid_.bytes() + queries_.bytes() + softContacts_.bytes() + softJoints_.bytes() +
-                   accounts_.bytes() + slumber_.bytes() + tears_.bytes() + reports_.capacity() * sizeof(Contact) +
+                   accounts_.bytes() + slumber_.bytes() + tears_.bytes() + reports_.bytes() +
                    islands_.capacity() * sizeof(Index);
     return stats;
 }

@@ -56,7 +56,6 @@ std::vector<std::vector<std::uint32_t>> World::borders(BodyHandle handle) const
 void World::cutTorn()
 {
     if (!tears_.due(state_, springs_)) return;
-    untold_ = false;
     report();
     tears_.look(state_, springs_);
     const auto isCut = [&](Index body) { return tears_.isCut(body); };

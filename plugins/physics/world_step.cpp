@@ -2,7 +2,6 @@
 #include "contact_solver.hpp"
 #include "integrator.hpp"
 #include "soft/enclosed_area.hpp"
-#include "told.hpp"
 #include "validation.hpp"
 #include "world.hpp"
 
@@ -62,12 +61,13 @@ void World::step(double dt)
 {
     checks().above("the step", "its time", dt, 0);
     checks().within("the step", "its time", dt, 0, kLongestStep);
-    if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), told_ = 0;
-    rememberTouches();
+    if (!std::exchange(settled_, true)) fitRoom(state_), rigid_.fitRoom(), rigid_.arena().clear(), outlines_.forget();
+    if (reports_.watched()) reportIfAsked();
+    reports_.remember(state_, complex_ > 0);
     slots_.release();
     heedMaterials();
     if (skipStep()) return;
-    told_ = 0;
+    outlines_.forget();
     stats_ = StepStats();
     islandsKnown_ = false;
     queries_.outdate();
@@ -82,8 +82,8 @@ void World::step(double dt)
 
 void World::stepPart(double dt)
 {
-    ended_.clear();
-    untold_ = false;
+    reports_.ended().clear();
+    reports_.setDue(false);
     if (onlySimple()) return stepSimple(dt);
     const Sharing sharing(state_, rigid_.pool(), settings_.threads);
     refresh();
@@ -94,7 +94,7 @@ void World::stepPart(double dt)
     const bool plain = settings_.method == Method::SemiImplicitEuler;
     const int least = plain ? 1 : substepsFor(dt, rate_, state_.nodes.size() - slots_.nodes());
     const int count = plain ? 1 : calmed(least, dt, wideSwings_);
-    stats_.substeps = static_cast<std::uint32_t>(count);
+    stats_.substeps += static_cast<std::uint32_t>(count);
     const double h = dt / count;
     if (h != preparedFor_ || plain != plain_ || dt / least != bounds_.longest()) {
         plain_ = plain;
@@ -134,7 +134,7 @@ void World::stepPart(double dt)
                 finder_.seek(state_, settings_, dt - now, false, stats_);
                 spreadWaking(true);
                 finder_.find(state_, settings_, dt - now, contacts_.points, stats_);
-                finder_.collectEnded(contacts_.points, ended_);
+                finder_.collectEnded(contacts_.points, reports_.ended());
             }
             contacts_.begin(state_);
             softContacts_.find(state_, settings_, finder_.motions(), finder_.softPairs(), dt - now, i == 0);
@@ -164,8 +164,8 @@ void World::stepPart(double dt)
     springs_.flow(state_, dt, h);
     if (settings_.findCollisions) softContacts_.travel(state_, finder_.positions());
     updatePoints(state_);
-    if (!lean_) updateReadings(state_);
-    untold_ = true;
+    if (!outlines_.lean()) updateReadings(state_);
+    reports_.setDue(true);
     cutTorn();
 }
 
@@ -264,49 +264,16 @@ void World::substep(double h, int index, int count)
 
 void World::report()
 {
-    reports_.clear();
-    touching_.clear();
-    for (const ContactPoint& c : contacts_.points) reportContact(c);
-    for (const ContactPoint& c : ended_) reportContact(c);
+    reports_.begin();
+    for (const ContactPoint& c : contacts_.points) reports_.add(state_, c);
+    for (const ContactPoint& c : reports_.ended()) reports_.add(state_, c);
     softContacts_.keep();
-    softContacts_.each(state_, [&](const ContactPoint& c) { reportContact(c); });
-    const std::size_t others = reports_.size();
-    rigid_.report(reports_, touching_);
-    for (std::size_t i = others; i < reports_.size(); ++i) nameFeatures(reports_[i]);
-    // A place or a direction that is none cannot be told otherwise; that the bodies touch is, all the same.
-    std::erase_if(reports_, [](const Contact& c) { return !isFinite(c.point) || !isFinite(c.normal); });
-    for (Contact& c : reports_)
-        c.edgeParameter = told(c.edgeParameter), c.penetration = told(c.penetration), c.impulse = told(c.impulse);
-    std::sort(touching_.begin(), touching_.end());
-    touching_.erase(std::unique(touching_.begin(), touching_.end()), touching_.end());
-    stats_.contacts = static_cast<std::uint32_t>(reports_.size());
+    softContacts_.each(state_, [&](const ContactPoint& c) { reports_.add(state_, c); });
+    reports_.addRigid(rigid_, outlines_);
+    reports_.finish();
+    stats_.contacts = static_cast<std::uint32_t>(reports_.contacts().size());
     stats_.awakeBodies = 0;
     for (const BodyRecord& body : state_.bodies) stats_.awakeBodies += !body.fixed && !body.asleep && !body.removed;
-}
-
-/// What pushed in this step is told, and what lies on or in a wall without pushing (sensors; collisions not resolved).
-void World::reportContact(const ContactPoint& c)
-{
-    const Points& points = state_.points;
-    const Vec2& first = points.position[state_.walls.first[c.wall]];
-    const Vec2 edge = points.position[state_.walls.second[c.wall]] - first;
-    const double squared = edge.squaredNorm();
-    if (!(squared > 0)) return;
-    const Vec2& at = points.position[c.point];
-    Vec2 normal = perpendicular(edge) * (state_.walls.outward[c.wall] / std::sqrt(squared));
-    double separation = (at - first).dot(normal);
-    const double along = (at - first).dot(edge) / squared;
-    const double distance = (at - first).norm();
-    const bool round = c.thickness > 0 && along < 0 && separation > 0 && distance > 0 && !c.inside;
-    if (round) normal = (at - first) / distance, separation = distance;
-    const bool onWall = (c.inside || round || (along >= 0 && along <= 1)) && separation <= c.slop + c.thickness &&
-                        (c.inside || c.engaged || separation >= -kTouchDepth * c.slop);
-    if (!(c.stepImpulse > 0) && !onWall) return;
-    reports_.push_back({c.bodyA, c.bodyB, c.point - state_.bodies[c.bodyA].points.first,
-                        state_.walls.first[c.wall] - state_.bodies[c.bodyB].points.first, at,
-                        std::clamp(along, 0.0, 1.0), normal, c.thickness - separation, c.stepImpulse});
-    if (c.bodyA == c.bodyB) return;
-    touching_.push_back((static_cast<std::uint64_t>(std::min(c.bodyA, c.bodyB)) << 32) | std::max(c.bodyA, c.bodyB));
 }
 
 }  // namespace jet::physics

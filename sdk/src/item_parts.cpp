@@ -61,6 +61,7 @@ void change(PhysicsWorld& world, std::uint32_t handle, const ForceActuatorDef&, 
 void change(PhysicsWorld& world, std::uint32_t handle, const JointDef& before, const JointDef& def)
 {
     if (def.kind != before.kind) refuse("a joint stays of its kind");
+    if (def.a.radius != before.a.radius) refuse("a joint goes on holding what it held when play started");
     JointDef wanted = def;
     const bool hasLength = def.kind == JointDef::Kind::Distance || def.kind == JointDef::Kind::Rope;
     if (hasLength && def.length < 0 && before.length >= 0) wanted.length = drawn(before.a, before.b);

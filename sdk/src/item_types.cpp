@@ -3,12 +3,21 @@
 #include <jet/catalog.hpp>
 #include <jet/item_type.hpp>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
 namespace jet {
 
 namespace {
+
+/// At play what an effect draws of a spring is its look; without one it is seen as while editing.
+bool helperShows(const Item& item, PaintPurpose purpose)
+{
+    if (purpose == PaintPurpose::Edit) return true;
+    return purpose == PaintPurpose::Play && std::none_of(item.effects().begin(), item.effects().end(),
+                                                         [](const EffectInstance& effect) { return effect.visible; });
+}
 
 class PlainType : public ItemType {
 public:
@@ -80,9 +89,9 @@ void bindOrWarn(const Item& item, WorldBuilder& builder, Add&& add)
 class SpringType final : public PlainType {
 public:
     SpringType() : PlainType("Spring", springProperties()) {}
-    void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const override
     {
-        if (purpose != PaintPurpose::Export) painter.stroke(path, cosmeticPen(kActuator, 2));
+        if (helperShows(item, purpose)) painter.stroke(path, cosmeticPen(kActuator, 2));
     }
     void build(const Item& item, WorldBuilder& builder) const override
     {
@@ -112,9 +121,9 @@ public:
               })
     {
     }
-    void paint(const Item&, const Path& path, PaintPurpose purpose, Painter& painter) const override
+    void paint(const Item& item, const Path& path, PaintPurpose purpose, Painter& painter) const override
     {
-        if (purpose != PaintPurpose::Export) painter.stroke(path, cosmeticPen(kActuator, 2));
+        if (helperShows(item, purpose)) painter.stroke(path, cosmeticPen(kActuator, 2));
     }
     void build(const Item& item, WorldBuilder& builder) const override
     {

@@ -63,6 +63,8 @@ void paintTree(const Scene& scene, const Item& item, const PoseSource& poses, Pa
 
 }  // namespace
 
+SceneOverlay::~SceneOverlay() = default;
+
 void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurpose purpose, Painter& painter)
 {
     paintOne(scene, item, path, nullptr, purpose, painter);
@@ -71,7 +73,11 @@ void paintItem(const Scene& scene, const Item& item, const Path& path, PaintPurp
 void paintScene(const Scene& scene, const PoseSource* poses, PaintPurpose purpose, const Box& clip, Painter& painter)
 {
     painter.setAssetFolder(scene.assetFolder());
-    if (poses) return paintTree(scene, scene.root(), *poses, purpose, clip, painter);
+    if (poses) {
+        paintTree(scene, scene.root(), *poses, purpose, clip, painter);
+        if (const auto* overlay = dynamic_cast<const SceneOverlay*>(poses)) overlay->paintOver(painter);
+        return;
+    }
     for (const Item* item : scene.items().query(clip)) paintItem(scene, *item, item->path(), purpose, painter);
 }
 

@@ -25,6 +25,25 @@ std::string installedEngines(const Catalog& catalog)
     return list.empty() ? list : list + ".";
 }
 
+/// An engine that lacks the method the scene asks for plays it with its own, and that is said: it is a way to compute
+/// the same motion, so the scene makes sense without.
+std::unique_ptr<PhysicsWorld> createWorld(PhysicsEngine& engine, WorldSettings settings,
+                                          std::vector<OutputLine>& messages)
+{
+    if (settings.method == Method::Automatic) return engine.createWorld(settings);
+    try {
+        return engine.createWorld(settings);
+    } catch (const Failure& failure) {
+        settings.method = Method::Automatic;
+        auto world = engine.createWorld(settings);  // refuses, too, where it is something else that is wrong
+        messages.push_back({OutputLine::Kind::Warning,
+                            "the scene's setting 'method' counts for nothing: " + failure.error().message,
+                            {},
+                            0});
+        return world;
+    }
+}
+
 }  // namespace
 
 Simulation::Simulation() : d_(std::make_unique<Private>()) {}
@@ -67,7 +86,7 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     if (const auto fits = checkMaterials(d.scene->materials()); !fits)
         return Error("the scene cannot be played: " + fits.error().message);
     try {
-        d.world = engine->createWorld(worldSettings(*d.scene, d.options.threads));
+        d.world = createWorld(*engine, worldSettings(*d.scene, d.options.threads), messages);
     } catch (const Failure& failure) {
         return Error("the scene cannot be played: " + failure.error().message);
     }
@@ -80,6 +99,9 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(const Scene& scene, Simu
     for (std::size_t i = 0; i < d.bodies.size(); ++i) d.bodyByItem[d.bodies[i].item.value] = i;
     d.poses.resize(d.bodies.size());
     d.posedAt.resize(d.bodies.size());
+    for (const auto& [item, parts] : d.parts)
+        if (auto path = CarriedPath::of(*d.scene->items().find(item), parts, d.bodies))
+            d.carried.emplace(item, std::move(*path));
     for (OutputLine& message : messages) simulation->print(std::move(message));
 
     bool hasScripts = false;
@@ -151,7 +173,11 @@ ActuatorHandle Simulation::actuatorOf(ItemId item) const
 const Path* Simulation::pose(const Item& item) const
 {
     const std::size_t i = d_->bindingOf(item.id());
-    if (i >= d_->bodies.size() || d_->bodies[i].fixed) return nullptr;
+    if (i >= d_->bodies.size()) {
+        const auto held = d_->carried.find(item.id());
+        return held == d_->carried.end() ? nullptr : &held->second.at(*d_->world, d_->bodies);
+    }
+    if (d_->bodies[i].fixed) return nullptr;
     if (d_->posedAt[i] != d_->steps + 1) {
         d_->poses[i] = d_->posed(d_->bodies[i]);
         d_->posedAt[i] = d_->steps + 1;

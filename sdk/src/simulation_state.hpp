@@ -1,6 +1,7 @@
 // What a Simulation consists of; shared by the files that implement it.
 #pragma once
 
+#include "carried_path.hpp"
 #include "property_place.hpp"
 #include "world_builder.hpp"
 
@@ -43,6 +44,7 @@ struct Simulation::Private {
 
     mutable std::vector<Path> poses;  // by body handle; valid where posedAt equals steps + 1
     mutable std::vector<std::uint64_t> posedAt;
+    mutable std::map<ItemId, CarriedPath> carried;  // of items that hold bodies
 
     std::size_t bindingOf(ItemId item) const
     {

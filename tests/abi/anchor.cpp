@@ -2,6 +2,7 @@
 // also of those that no exported function mentions. Written by scripts/check-abi --update.
 #include <jet/arrange.hpp>
 #include <jet/assets.hpp>
+#include <jet/body_point.hpp>
 #include <jet/box_tool.hpp>
 #include <jet/call_watch.hpp>
 #include <jet/catalog.hpp>
@@ -36,6 +37,7 @@
 #include <jet/result.hpp>
 #include <jet/rewind.hpp>
 #include <jet/scene.hpp>
+#include <jet/scene_painter.hpp>
 #include <jet/script.hpp>
 #include <jet/settings.hpp>
 #include <jet/simulation.hpp>
@@ -68,6 +70,7 @@ TYPE(jet::Distribution)
 TYPE(jet::FlipAxis)
 TYPE(jet::StackOrder)
 TYPE(jet::AssetReference)
+TYPE(jet::BodyPoint)
 TYPE(jet::BoxTool)
 TYPE(jet::CallWatch)
 TYPE(jet::ContributionKind)
@@ -230,6 +233,7 @@ TYPE(jet::RewindState)
 TYPE(jet::RewindHistory)
 TYPE(jet::Scene)
 TYPE(jet::SceneBuilder)
+TYPE(jet::SceneOverlay)
 TYPE(jet::ScriptEventKind)
 TYPE(jet::ScriptEvent)
 TYPE(jet::ScriptRuntime)

@@ -287,6 +287,7 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     arena_.reset();
     solver.begin(collider_.bodies().size(), shape, pool_, arena_);
     substeps_ = shape.substeps;
+    stats.substeps += static_cast<std::uint32_t>(shape.substeps);
     drowsy_ = false;
     scaleSleeping(shape.h);
     load(solver, state);

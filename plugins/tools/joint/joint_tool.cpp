@@ -1,5 +1,6 @@
 // Joint tool: drag, or click twice, from one body to another or to the background; a Joint item holds the two at play.
 // Ends snap to the middles and points of bodies (Alt: freely), Esc gives up.
+#include <jet/body_point.hpp>
 #include <jet/catalog.hpp>
 #include <jet/plugin.hpp>
 #include <jet/tool.hpp>
@@ -10,19 +11,7 @@
 
 namespace {
 
-constexpr double kReach = 8, kStill = 3;  // pixels: of snapping; a press that moves less is a click
-constexpr double kInside = 1e-3;  // of the way to the middle: an end on a body's border is taken that far inside
-
-/// Where an end of the joint is, and what it holds.
-struct End {
-    jet::Vec2 at{0, 0};      // scene units; as shown
-    jet::Vec2 inside{0, 0};  // in the body, for certain
-    jet::ItemId body;        // none: the background
-    std::string name;        // of the body
-    bool snapped = false;
-
-    bool isBackground() const { return body == jet::ItemId{}; }
-};
+constexpr double kStill = 3;  // pixels: a press that moves less is a click
 
 class JointTool final : public jet::Tool {
 public:
@@ -57,7 +46,7 @@ public:
         pressed_ = false;
         follow(event);
         if (!second_ && (event.pixels - pressedAt_).norm() < kStill) return;  // the other end is to be clicked
-        const End from = *start_, to = *hover_;
+        const jet::BodyPoint from = *start_, to = *hover_;
         cancel();
         create(from, to);
     }
@@ -75,8 +64,8 @@ public:
     void paint(jet::Painter& painter) const override
     {
         if (start_ && hover_) painter.stroke(pathOf(*start_, *hover_), host().layerPen());
-        if (start_) mark(painter, *start_);
-        if (hover_ && (hover_->snapped || start_)) mark(painter, *hover_);
+        if (start_) jet::paintBodyPoint(*start_, host(), painter);
+        if (hover_ && (hover_->snapped || start_)) jet::paintBodyPoint(*hover_, host(), painter);
     }
 
     const jet::PropertyTable& options() const override
@@ -95,57 +84,10 @@ public:
 private:
     std::string option(const char* id) const { return host().options().get(id, options()).as<std::string>(); }
 
-    // --- what lies under the pointer
-
-    const jet::Item* bodyAt(const jet::Vec2& at) const
-    {
-        const jet::Item* top = nullptr;
-        for (const jet::Item* item : host().items().query(jet::Box(at, at)))
-            if (item->is<jet::BodyItem>() && item->path().contains(at, jet::FillRule::EvenOdd)) top = item;
-        return top;
-    }
-
-    /// The end at a point of a body: a point of its border is moved inside, else nobody could tell whom it holds.
-    static std::optional<End> endOf(const jet::Item& body, const jet::Vec2& point)
-    {
-        const jet::Vec2 middle = body.bounds().center();
-        for (const double way : {0.0, kInside, 10 * kInside}) {
-            const jet::Vec2 inside = point + way * (middle - point);
-            if (way == 0 && point != middle) continue;
-            if (body.path().contains(inside, jet::FillRule::EvenOdd))
-                return End{point, inside, body.id(), body.name(), true};
-        }
-        return std::nullopt;
-    }
-
-    std::optional<End> snapped(const jet::Vec2& at) const
-    {
-        const double reach = kReach / std::max(host().pixelsPerUnit(), 1e-9);
-        std::optional<End> best;
-        double nearest = reach;
-        const auto consider = [&](const jet::Item& body, const jet::Vec2& point) {
-            const double distance = (point - at).norm();
-            if (distance > nearest || (best && distance == nearest && best->body != body.id())) return;
-            if (auto end = endOf(body, point)) nearest = distance, best = std::move(end);
-        };
-        const jet::Vec2 around(reach, reach);
-        for (const jet::Item* item : host().items().query(jet::Box(at - around, at + around))) {
-            if (!item->is<jet::BodyItem>()) continue;
-            consider(*item, item->bounds().center());
-            for (std::size_t i = 0; i < item->path().segmentCount(); ++i)
-                consider(*item, item->path().segment(i).point);
-        }
-        return best;
-    }
-
-    End endAt(const jet::PointerEvent& event) const
+    jet::BodyPoint endAt(const jet::PointerEvent& event) const
     {
         const bool snap = host().options().get("snap", options()).as<bool>() && !event.modifiers.alt;
-        if (snap)
-            if (const auto end = snapped(event.scene)) return *end;
-        End end{event.scene, event.scene, {}, {}, false};
-        if (const jet::Item* body = bodyAt(event.scene)) end.body = body->id(), end.name = body->name();
-        return end;
+        return jet::bodyPointAt(host(), event.scene, snap);
     }
 
     void follow(const jet::PointerEvent& event)
@@ -155,7 +97,7 @@ private:
         host().requestRepaint();
     }
 
-    static std::string words(const End& end) { return end.isBackground() ? "background" : end.name; }
+    static std::string words(const jet::BodyPoint& end) { return end.isBackground() ? "background" : end.name; }
 
     // --- the joint
 
@@ -165,7 +107,7 @@ private:
         return kind == "revolute" || kind == "prismatic" || kind == "weld" || kind == "wheel";
     }
 
-    jet::Vec2 pivot(const End& from, const End& to) const
+    jet::Vec2 pivot(const jet::BodyPoint& from, const jet::BodyPoint& to) const
     {
         const std::string where = option("pivot");
         if (where == "middle") return 0.5 * (from.at + to.at);
@@ -176,7 +118,7 @@ private:
     static jet::Path line(const std::vector<jet::Vec2>& points) { return jet::Path::polygon(points, false); }
 
     /// As joint items want it: body A, (pivot | the wheels of a pulley), body B.
-    jet::Path pathOf(const End& from, const End& to) const
+    jet::Path pathOf(const jet::BodyPoint& from, const jet::BodyPoint& to) const
     {
         if (hasPivot()) return line({from.inside, pivot(from, to), to.inside});
         if (option("kind") != "pulley") return line({from.inside, to.inside});
@@ -185,7 +127,7 @@ private:
     }
 
     /// Why these two cannot be joined; empty: they can.
-    std::string refusal(const End& from, const End& to) const
+    std::string refusal(const jet::BodyPoint& from, const jet::BodyPoint& to) const
     {
         if (from.isBackground() && to.isBackground())
             return "There is no body at either end: drag from a body to another one, or to the background.";
@@ -196,7 +138,7 @@ private:
         return {};
     }
 
-    void create(const End& from, const End& to)
+    void create(const jet::BodyPoint& from, const jet::BodyPoint& to)
     {
         if (const std::string why = refusal(from, to); !why.empty()) return host().showStatus(why);
         const std::string kind = option("kind");
@@ -216,15 +158,7 @@ private:
     /// Wheels hang below what they carry.
     static void setAxis(jet::Transaction& edit, const jet::Item& joint) { edit.set(joint, "axis", jet::Vec2(0, 1)); }
 
-    void mark(jet::Painter& painter, const End& end) const
-    {
-        const jet::Vec2 half = jet::Vec2(5, 5) / std::max(host().pixelsPerUnit(), 1e-9);
-        painter.stroke(jet::Path::ellipse(jet::Box(end.at - half, end.at + half)), host().layerPen());
-        if (!end.isBackground())
-            painter.stroke(jet::Path::ellipse(jet::Box(end.at - 0.4 * half, end.at + 0.4 * half)), host().layerPen());
-    }
-
-    std::optional<End> start_, hover_;
+    std::optional<jet::BodyPoint> start_, hover_;
     jet::Vec2 pressedAt_{0, 0};  // pixels
     bool pressed_ = false;
     bool second_ = false;  // is this the press that ends it?

@@ -1,6 +1,8 @@
 // jet play: without a window, the same every time, and with one message when something is wrong.
 #include "cli_fixture.hpp"
 
+#include <set>
+
 namespace jet::test {
 namespace {
 
@@ -176,6 +178,82 @@ TEST_F(PlayCommandTest, ASnapshotNobodyCanMakeIsToldBeforePlaying)
     EXPECT_FALSE(exists("state.json"));
     EXPECT_EQ(jet("play game --physics falling --snapshot picture.count").code, 0);
     EXPECT_EQ(read("picture.count"), "2\n");
+}
+
+/// With the plugins that are shipped.
+class PlayPictureTest : public CliTest {
+protected:
+    /// A box that hangs on a rope; `settings` and `script` as in the scene's file.
+    void writeScene(const std::string& settings, const std::string& script = "")
+    {
+        write("game/project.jet", "<jet-project version=\"1\" name=\"Game\">\n<filter name=\"F\"><scene name=\"One\" "
+                                  "file=\"one.scene\"/></filter>\n</jet-project>\n");
+        write(
+            "game/one.scene",
+            "<scene version=\"1\">\n<settings>" + settings +
+                "</settings>\n<item type=\"body\" id=\"1\" name=\"Box\"><path>M 40 40 L 60 40 L 60 60 L 40 60 Z</path>"
+                "<effect type=\"in-path-rigid-body\"/></item>\n<item type=\"joint\" id=\"2\" name=\"Rope\"><path>M 50 "
+                "10 "
+                "L 50 50</path><property id=\"kind\">rope</property></item>\n<item type=\"script\" id=\"3\" "
+                "name=\"Script\"><property id=\"code\">" +
+                script + "</property></item>\n</scene>\n");
+    }
+    static std::string page(int width, int height)
+    {
+        return "<property id=\"page-height\">" + std::to_string(height) + "</property><property id=\"page-width\">" +
+               std::to_string(width) + "</property>";
+    }
+    std::string picture(const std::string& options)
+    {
+        const Outcome run = plain("play game --steps 20 --snapshot a.png " + options);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return read("a.png");
+    }
+    /// Of the PNG, from its header.
+    std::pair<int, int> size(const std::string& options)
+    {
+        const std::string png = picture(options);
+        const auto number = [&](std::size_t at) {
+            int value = 0;
+            for (std::size_t i = 0; i < 4; ++i) value = value * 256 + static_cast<unsigned char>(png.at(at + i));
+            return value;
+        };
+        return {number(16), number(20)};
+    }
+};
+
+TEST_F(PlayPictureTest, ShowsThePageAtItsSizeUnlessAViewIsAskedFor)
+{
+    using Size = std::pair<int, int>;
+    writeScene(page(320, 180));
+    EXPECT_EQ(size(""), Size(320, 180));
+    EXPECT_EQ(size("--width 640"), Size(640, 720));
+    EXPECT_EQ(size("--width 100 --height 50"), Size(100, 50));
+    EXPECT_EQ(json(plain("--json play game --steps 1").out)["view"]["size"], nlohmann::json::array({1280.0, 720.0}))
+        << "scripts see what they saw";
+    writeScene("");
+    EXPECT_EQ(size(""), Size(1280, 720)) << "no page";
+    writeScene(page(320, 180), "CC.getScene(\"One\").GC.swingSimulationGP.setViewScale(2);");
+    EXPECT_EQ(size(""), Size(1280, 720)) << "the game moved its camera: what it shows is the view";
+    writeScene(page(9000000, 9000000));
+    EXPECT_EQ(size(""), Size(1280, 720)) << "no picture is as large";
+}
+
+TEST_F(PlayPictureTest, ShowsWhatIsAskedForOfThePhysics)
+{
+    writeScene(page(320, 180));
+    const std::string plainly = picture("");
+    std::set<std::string> all{plainly};
+    for (const char* marks : {"boxes", "centres", "joints", "boxes,centres", "all"})
+        all.insert(picture("--debug " + std::string(marks)));
+    EXPECT_EQ(all.size(), 6u) << "each another";
+    EXPECT_EQ(picture("--debug stress"), plainly) << "there is no soft body";
+    const Outcome odd = plain("play game --snapshot a.png --debug boxes,springs");
+    EXPECT_EQ(odd.code, 2);
+    EXPECT_THAT(odd.err,
+                HasSubstr("'springs' is nothing that can be shown; there are contacts, islands, stress, boxes, "
+                          "centres, joints, and all"));
+    EXPECT_EQ(plain("play game --debug boxes").code, 2) << "of no use without a picture";
 }
 
 TEST_F(PlayCommandTest, ATimeOfAStepThatIsNoneIsRefusedInOneLine)

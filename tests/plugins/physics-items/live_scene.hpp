@@ -78,8 +78,12 @@ protected:
     double omega(ItemId item) { return simulation_->world().bodies().omega[simulation_->bodyOf(item)]; }
     Vec2 place(ItemId item) { return simulation_->world().bodies().position[simulation_->bodyOf(item)]; }
 
-    TestCatalog catalog_{"org.jet.physics", "org.jet.items.physics", "org.jet.effect.in-path-rigid-body",
-                         "org.jet.effect.in-path-body", "org.jet.script-duktape"};
+    TestCatalog catalog_{"org.jet.physics",
+                         "org.jet.items.physics",
+                         "org.jet.effect.in-path-rigid-body",
+                         "org.jet.effect.in-path-body",
+                         "org.jet.effect.stroke",
+                         "org.jet.script-duktape"};
     EventsCenter events_;
     Scene scene_;
     SimulationOptions options_;

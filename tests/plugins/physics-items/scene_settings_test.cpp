@@ -57,6 +57,27 @@ TEST_F(LiveScene, InTeachingModeAStepIsOneOfSemiImplicitEuler)
     EXPECT_NEAR(place(falling).y(), 0.5 * 98.1 * 4, 2) << "g t^2 / 2";
 }
 
+class SettingsOfBox2d : public LiveScene {
+protected:
+    SettingsOfBox2d() : LiveScene("physics-box2d") {}
+};
+
+TEST_F(SettingsOfBox2d, AMethodItLacksIsSaidAndItsOwnIsUsed)
+{
+    if (!hasEngine_) GTEST_SKIP() << "built without Box2D";
+    const ItemId falling = box({{-10, -10}, {10, 10}});
+    play(1);
+    EXPECT_TRUE(printed().empty());
+    const Vec2 usual = place(falling);
+    simulation_.reset();
+    setScene("method", "semi-implicit-euler");
+    play(1);
+    ASSERT_EQ(printed().size(), 1u);
+    EXPECT_THAT(printed()[0], testing::AllOf(testing::HasSubstr("setting 'method'"), testing::HasSubstr("Box2D")));
+    EXPECT_EQ(simulation_->output()[0].kind, OutputLine::Kind::Warning);
+    EXPECT_EQ(place(falling), usual);
+}
+
 }  // namespace
 
 }  // namespace jet::test

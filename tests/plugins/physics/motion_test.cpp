@@ -22,6 +22,25 @@ TEST(Motion, FreeFallIsSemiImplicitEulerOverTheSubsteps)
     EXPECT_NEAR(world->bodies().velocity[0].y(), -20 + g, 1e-9);
 }
 
+TEST(Motion, AStepTellsItsSubstepsAndThoseOfItsParts)
+{
+    for (const bool soft : {false, true}) {
+        auto world = makeWorld({0, 100});
+        world->addRigidBody(box({0, 0}, 10, 10));
+        if (soft) world->addSoftBody(softBall({200, 0}, 30, 0.5, 0.01));
+        world->step(kStep);
+        EXPECT_EQ(world->stats().substeps, 8U) << "480 a second";
+        world->step(0.1);
+        EXPECT_EQ(world->stats().substeps, 48U) << "two parts";
+    }
+    WorldSettings settings;
+    settings.substeps = 3;
+    auto world = JetPhysics().createWorld(settings);
+    world->addRigidBody(box({0, 0}, 10, 10));
+    world->step(kStep);
+    EXPECT_EQ(world->stats().substeps, 3U);
+}
+
 TEST(Motion, SoftAndRigidBodiesFallAlike)
 {
     auto world = makeWorld({0, 300});

@@ -1,18 +1,15 @@
-// Outlines of rigid bodies. As long as nothing in a world goes by points and walls, a body of one shape has none: its
-// part says all, and its outline is worked out when somebody asks. The first body that goes by points and walls makes
-// all others have them.
-#include "border.hpp"
+#include "outlines.hpp"
+
 #include "outline.hpp"
 #include "room.hpp"
-#include "world.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
 namespace jet::physics {
 
-/// Appends points and walls to the body, which is the last of those that have any.
-void World::keepOutline(BodyRecord& body, const std::vector<std::vector<Vec2>>& outlines, Inside inside)
+void Outlines::add(BodyRecord& body, const std::vector<std::vector<Vec2>>& outlines, Inside inside)
 {
     body.points.first = static_cast<Index>(state_.points.size());
     Points& points = state_.points;
@@ -21,16 +18,15 @@ void World::keepOutline(BodyRecord& body, const std::vector<std::vector<Vec2>>& 
         makeRoom(outline.size(), points.node, points.position, points.collidable);
         auto& ring = rings.emplace_back(outline.size());
         std::iota(ring.begin(), ring.end(), static_cast<Index>(points.size()));
-        for (const Vec2& at : outline) addPoint(body, body.nodes.first, at, at);
+        for (const Vec2& at : outline) addPoint(state_, body, body.nodes.first, at, at);
     }
     body.points.count = static_cast<Index>(points.size()) - body.points.first;
     addBorders(state_, body, rings, inside);
 }
 
-/// Points and walls in the order of bodies, for all of them.
-void World::outlineAll()
+bool Outlines::addAll()
 {
-    if (!lean_) return;
+    if (!lean_) return false;
     lean_ = false;
     const Points points = std::move(state_.points);
     const Walls walls = std::move(state_.walls);
@@ -38,23 +34,23 @@ void World::outlineAll()
     for (BodyRecord& body : state_.bodies) {
         if (body.isLean()) {
             const PartRing ring = ringOf(rigid_.onlyPart(static_cast<Index>(&body - state_.bodies.data())));
-            keepOutline(body, {{ring.points.begin(), ring.points.begin() + ring.count}}, Inside::AnyRing);
+            add(body, {{ring.points.begin(), ring.points.begin() + ring.count}}, Inside::AnyRing);
             body.grid.reset();
         } else {
-            copyOutline(body, points, walls);
+            copy(body, points, walls);
         }
     }
     state_.readings = {};
-    stale_ = true;
+    return true;
 }
 
-void World::copyOutline(BodyRecord& body, const Points& points, const Walls& walls)
+void Outlines::copy(BodyRecord& body, const Points& points, const Walls& walls)
 {
     const Range oldPoints = body.points, oldWalls = body.walls;
     body.points.first = static_cast<Index>(state_.points.size());
     body.walls.first = static_cast<Index>(state_.walls.size());
     for (Index p = oldPoints.first; p < oldPoints.end(); ++p) {
-        addPoint(body, points.node[p], points.local[p], points.position[p]);
+        addPoint(state_, body, points.node[p], points.local[p], points.position[p]);
         state_.points.collidable.back() = points.collidable[p];
     }
     Walls& to = state_.walls;
@@ -68,9 +64,7 @@ void World::copyOutline(BodyRecord& body, const Points& points, const Walls& wal
     }
 }
 
-/// Where nothing goes by points and walls: bounds and points of all bodies, for who looks at them. They lie where steps
-/// have what they work on, as the next step ends their time.
-void World::tellOutlines()
+BodyStates Outlines::tell()
 {
     std::vector<Index>& first = state_.readings.firstPoint;
     const std::size_t count = state_.bodies.size();
@@ -79,36 +73,40 @@ void World::tellOutlines()
         const BodyRecord& body = state_.bodies[handle];
         first.push_back(first.back() + (body.isLean() ? ringSizeOf(rigid_.onlyPart(handle)) : body.points.count));
     }
-    if (told_ == 0 || count > toldBounds_.size() || first.back() > toldPoints_.size()) {
+    if (told_ == 0 || count > bounds_.size() || first.back() > points_.size()) {
         // Who looks after each body that is added is not told all of them each time.
         const auto room = [&](std::size_t needed) { return told_ == 0 ? needed : needed + needed / 2; };
         const std::size_t bounds = room(count), points = room(first.back());
         rigid_.arena().reset(Arena::sizeOf<Box>(bounds) + Arena::sizeOf<Vec2>(points));
-        toldBounds_ = rigid_.arena().take<Box>(bounds), toldPoints_ = rigid_.arena().take<Vec2>(points);
+        bounds_ = rigid_.arena().take<Box>(bounds), points_ = rigid_.arena().take<Vec2>(points);
         told_ = 0;
     }
-    for (; told_ < count; ++told_) tellOutline(told_);
+    while (told_ < count) retell(told_++);
+    const Nodes& nodes = state_.nodes;
+    return {nodes.position, nodes.angle.values(),       nodes.velocity, nodes.omega.values(), bounds_.first(count),
+            first,          points_.first(first.back())};
 }
 
-void World::tellOutline(Index handle)
+void Outlines::retell(Index handle)
 {
+    if (handle >= told_) return;
     if (state_.bodies[handle].removed) {
-        toldBounds_[handle] = Box();
+        bounds_[handle] = Box();
         return;
     }
-    Vec2* points = toldPoints_.data() + state_.readings.firstPoint[handle];
+    Vec2* points = points_.data() + state_.readings.firstPoint[handle];
     Box bounds;
     eachPoint(handle, [&](Index i, const Vec2& at) {
         points[i] = at;
         bounds.extend(at);
     });
     if (bounds.isNull()) bounds.extend(state_.nodes.position[state_.bodies[handle].nodes.first]);
-    toldBounds_[handle] = bounds;
+    bounds_[handle] = bounds;
 }
 
 /// Calls visit(index, at) for the points of the body's outline, where they are now.
 template <class Visit>
-void World::eachPoint(Index handle, Visit&& visit) const
+void Outlines::eachPoint(Index handle, Visit&& visit) const
 {
     const BodyRecord& body = state_.bodies[handle];
     if (!body.isLean()) {
@@ -122,7 +120,7 @@ void World::eachPoint(Index handle, Visit&& visit) const
 
 /// Calls visit(index of its first point, from, to, outward) for the walls of the body.
 template <class Visit>
-void World::eachWall(Index handle, Visit&& visit) const
+void Outlines::eachWall(Index handle, Visit&& visit) const
 {
     const BodyRecord& body = state_.bodies[handle];
     if (!body.isLean()) {
@@ -138,7 +136,7 @@ void World::eachWall(Index handle, Visit&& visit) const
     for (Index i = 0; i < ring.count; ++i) visit(i, at(i), at((i + 1) % ring.count), ring.outward);
 }
 
-void World::nameFeatures(Contact& contact) const
+void Outlines::nameFeatures(Contact& contact) const
 {
     double nearest = std::numeric_limits<double>::infinity();
     Vec2 corner(0, 0);
