@@ -24,12 +24,12 @@ TEST(Motion, FreeFallIsSemiImplicitEulerOverTheSubsteps)
 
 TEST(Motion, AStepTellsItsSubstepsAndThoseOfItsParts)
 {
-    auto rigid = makeWorld({0, 100});
-    rigid->addRigidBody(box({0, 0}, 10, 10));
-    rigid->step(kStep);
-    EXPECT_EQ(rigid->stats().substeps, 8U) << "480 a second";
-    rigid->step(0.1);
-    EXPECT_EQ(rigid->stats().substeps, 48U) << "two parts";
+    auto hard = makeWorld({0, 100});
+    hard->addRigidBody(box({0, 0}, 10, 10));
+    hard->step(kStep);
+    EXPECT_EQ(hard->stats().substeps, 8U) << "480 a second";
+    hard->step(0.1);
+    EXPECT_EQ(hard->stats().substeps, 48U) << "two parts";
     auto soft = makeWorld({0, 100});
     soft->addSoftBody(softBall({200, 0}, 30, 5));
     soft->step(kStep);
