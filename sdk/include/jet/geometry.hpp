@@ -32,17 +32,12 @@ public:
     {
     }
 
-    static Affine translation(const Vec2& by) { return Base(Eigen::Translation2d(by)); }
-    static Affine scaling(const Vec2& factor, const Vec2& about = Vec2::Zero())
-    {
-        return Base(Eigen::Translation2d(about) * Eigen::Scaling(factor.x(), factor.y()) *
-                    Eigen::Translation2d(-about));
-    }
+    // In the library: inline, their products of maps would be instantiated in every file that sees this one, which is
+    // half of the time of a small one.
+    JET_API static Affine translation(const Vec2& by);
+    JET_API static Affine scaling(const Vec2& factor, const Vec2& about = Vec2::Zero());
     /// Turns by `angle` radians, clockwise on screen.
-    static Affine rotation(double angle, const Vec2& about = Vec2::Zero())
-    {
-        return Base(Eigen::Translation2d(about) * Eigen::Rotation2Dd(angle) * Eigen::Translation2d(-about));
-    }
+    JET_API static Affine rotation(double angle, const Vec2& about = Vec2::Zero());
     /// SVG's matrix(a b c d e f): x' = a x + c y + e, y' = b x + d y + f.
     static Affine fromSvg(double a, double b, double c, double d, double e, double f)
     {

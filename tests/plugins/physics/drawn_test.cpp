@@ -19,7 +19,7 @@ RigidBodyDef chain(std::vector<Vec2> line)
 
 /// Ground of many segments from x = 0 on, as a chain or as the upper side of a closed border; `y` gives its height.
 template <class Height>
-RigidBodyDef ground(bool open, int segments, double length, Height&& y)
+RigidBodyDef drawnGround(bool open, int segments, double length, Height&& y)
 {
     std::vector<Vec2> line;
     for (int i = 0; i <= segments; ++i) line.push_back({i * length, y(i * length)});
@@ -56,7 +56,7 @@ TEST(Ground, WhatSinksTowardsASlopeFromInsideItsBoxIsHeld)
 {
     for (const bool open : {true, false}) {
         auto world = makeWorld({0, 40}, 0);
-        world->addRigidBody(ground(open, 10, 40, [](double x) { return std::fmod(x, 80) < 1 ? 0.0 : 16.0; }));
+        world->addRigidBody(drawnGround(open, 10, 40, [](double x) { return std::fmod(x, 80) < 1 ? 0.0 : 16.0; }));
         std::vector<BodyHandle> balls;
         for (int valley = 0; valley < 5; ++valley) {
             RigidBodyDef ball = disc({80.0 * valley + 35, 2}, 5);
@@ -84,7 +84,7 @@ TEST(Ground, ABoxAndABallGlideOverAThousandSegmentsWithoutABump)
                                             : rigid({ell({25, -0.02}, -1)});
             body.common.velocity = {300, 0};
             const BodyHandle moving = world->addRigidBody(body);
-            world->addRigidBody(ground(open, 1000, 2, [](double) { return 0.0; }));
+            world->addRigidBody(drawnGround(open, 1000, 2, [](double) { return 0.0; }));
             run(*world, 0.2);
             const double start = world->bodies().position[moving].y();
             double up = 0, bump = 0;
@@ -113,7 +113,7 @@ TEST(Ground, OverBentGroundSpeedIsKept)
                 round ? disc({60, height(60) - 6.5}, 6) : simple(box({60, height(60) - 6.5}, 12, 12, 1, 0.09));
             body.common.velocity = {180, 16};
             const BodyHandle moving = world->addRigidBody(body);
-            world->addRigidBody(ground(open, 1000, 1.5, height));
+            world->addRigidBody(drawnGround(open, 1000, 1.5, height));
             run(*world, 0.5);
             const auto energy = [&] {
                 const BodyStates s = world->bodies();
@@ -142,7 +142,7 @@ TEST(Ground, NothingPassesAChainFromItsFrontAndEverythingFromBehind)
                                       : simple(box({500.3 + i, below ? 100.0 : -100.0}, 4, 4, 1, 0.2 * i));
             ball.common.velocity = {0.1 * speed, below ? -speed : speed};
             world->addRigidBody(ball);
-            world->addRigidBody(ground(true, 500, 10, [](double x) { return 3 * std::sin(x / 40); }));
+            world->addRigidBody(drawnGround(true, 500, 10, [](double x) { return 3 * std::sin(x / 40); }));
             run(*world, std::max(0.2, 300 / speed));
             EXPECT_LT(world->bodies().position[0].y(), 6) << speed << (below ? " from below" : " from above");
         }
@@ -172,7 +172,7 @@ TEST(Ground, ThingsComeToRestInAValleyAndOnAHill)
 TEST(Ground, SoftBodiesStayOnAChain)
 {
     auto world = makeWorld({0, 200}, 0.4);
-    world->addRigidBody(ground(true, 100, 12, [](double x) { return 20 * std::cos(x / 190); }));
+    world->addRigidBody(drawnGround(true, 100, 12, [](double x) { return 20 * std::cos(x / 190); }));
     const BodyHandle ball = world->addSoftBody(softBall({400, -60}, 25, 400, 2));
     run(*world, 5);
     EXPECT_TRUE(allFinite(*world));

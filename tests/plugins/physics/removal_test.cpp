@@ -45,7 +45,7 @@ RigidBodyDef arrow(const Vec2& at)
 }
 
 /// A ball of jelly that tears when it is pulled.
-SoftBodyDef jelly(const Vec2& at) { return softBall(at, 12, 200, 1, 12, 2); }
+SoftBodyDef jellyBall(const Vec2& at) { return softBall(at, 12, 200, 1, 12, 2); }
 
 struct Kind {
     const char* name;
@@ -65,7 +65,7 @@ const std::vector<Kind>& kinds()
              return w.addRigidBody(rigid({{at, at + Vec2(10, 0), at + Vec2(20, 0)}}));
          },
          1500},
-        {"soft balls", [](PhysicsWorld& w, const Vec2& at) { return w.addSoftBody(jelly(at)); }, 1500}};
+        {"soft balls", [](PhysicsWorld& w, const Vec2& at) { return w.addSoftBody(jellyBall(at)); }, 1500}};
     return all;
 }
 
