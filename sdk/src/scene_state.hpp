@@ -25,6 +25,10 @@ inline constexpr std::uint64_t kMaximumId = (std::uint64_t{1} << 53) - 1;
 /// Items nested deeper are refused, in files and in transactions alike, so that what was made can be saved and read.
 inline constexpr std::size_t kMaximumDepth = 1000;
 
+/// Depth below the top group; what the subtree adds to it.
+std::size_t depthOf(const Item& item);
+std::size_t heightOf(const Item& item);
+
 /// A selection as it was at some moment; shared by all who remember that moment.
 using SelectionPtr = std::shared_ptr<const std::vector<ItemId>>;
 

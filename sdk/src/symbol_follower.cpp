@@ -2,6 +2,8 @@
 
 #include "bits.hpp"
 
+#include <ranges>
+
 namespace jet {
 
 namespace {
@@ -57,6 +59,7 @@ void ItemsCenter::Private::Links::Follower::run()
                 return other != one && links_.reaches(one->symbol, other->symbol, now_.pending);
             });
         });
+        if (next == left.end()) throw Failure(Error("the changes would make symbols parts of each other"));
         const Base& base = **next;
         left.erase(next);
         follow(base);
@@ -64,7 +67,7 @@ void ItemsCenter::Private::Links::Follower::run()
 }
 
 /// Whose members a recorded change touched, in whatever way it came to be.
-std::set<ItemId> ItemsCenter::Private::Links::Follower::concerned() const
+std::set<ItemId> ItemsCenter::Private::Links::Follower::concerned(std::size_t count) const
 {
     std::set<ItemId> symbols;
     const auto note = [&](ItemId id, bool asContainer) {
@@ -74,7 +77,7 @@ std::set<ItemId> ItemsCenter::Private::Links::Follower::concerned() const
         const Item* holder = asContainer ? holderOfMembers(*item) : holderOf(*item);
         if (holder) symbols.insert(isSymbol(*holder) ? holder->id() : linkOf(*holder));
     };
-    for (const Change& change : d_.changes) {
+    for (const Change& change : d_.changes | std::views::drop(count)) {
         note(changedItem(change), false);
         if (const auto* added = std::get_if<ItemAdded>(&change)) note(added->parent, true);
         if (const auto* removed = std::get_if<ItemRemoved>(&change)) note(removed->parent, true);
@@ -84,13 +87,14 @@ std::set<ItemId> ItemsCenter::Private::Links::Follower::concerned() const
     return symbols;
 }
 
-void ItemsCenter::Private::Links::Follower::mend()
+/// In any order: what is made anew is an instance's content, which no symbol counts among its members.
+void ItemsCenter::Private::Links::Follower::mend(std::size_t count)
 {
-    for (const ItemId symbol : concerned()) mend(symbol);
+    for (const ItemId symbol : concerned(count)) mendInstancesOf(symbol);
 }
 
 /// The last word is the symbol's: what steps that crossed each other left otherwise is made anew.
-void ItemsCenter::Private::Links::Follower::mend(ItemId symbol)
+void ItemsCenter::Private::Links::Follower::mendInstancesOf(ItemId symbol)
 {
     const Item* own = d_.byId.find(symbol.value);
     if (!own) return;
@@ -181,14 +185,18 @@ ItemsCenter::Private::Links::Follower::directly(const Item& symbol) const
 void ItemsCenter::Private::Links::Follower::takeIn(const Pending& pending, ItemPairs& toSymbol, Difference& difference)
 {
     const Item& holder = d_.get(pending.holder);
-    takeLinks(holder, toSymbol, difference);
+    fresh_.clear();
+    takeLinks(holder, toSymbol, difference, false);
+    takeContainers(holder, toSymbol, difference);
     takeStructure(pending, holder, d_.get(pending.symbol), toSymbol, difference);
+    takeLinks(holder, toSymbol, difference, true);
     takeFields(holder, toSymbol, difference);
 }
 
-/// Links first: an instance that was detached has members from now on, one that is linked has none any more.
+/// Before the members, as an instance that was detached has some from now on; of what is linked by now after them, as
+/// it has none any more, and some may have moved elsewhere.
 void ItemsCenter::Private::Links::Follower::takeLinks(const Item& holder, const ItemPairs& toSymbol,
-                                                      Difference& difference)
+                                                      Difference& difference, bool ofNewInstances)
 {
     const std::optional<Affine> inverse = inverseOf(placementOf(holder));
     const Item& symbol = d_.get(linkOf(holder));
@@ -199,6 +207,7 @@ void ItemsCenter::Private::Links::Follower::takeLinks(const Item& holder, const 
         if (!item || holderOf(*item) != &holder) continue;
         const Item* counterpart = counterpartOf(*item, toSymbol, symbol);
         if (!counterpart) continue;
+        if (ofNewInstances != (isInstance(*item) && !isInstance(*counterpart))) continue;
         const bool moved = linkOf(*item) == linkOf(*counterpart);
         if (moved && !inverse) continue;
         difference.items.insert(theirs.value);
@@ -207,18 +216,42 @@ void ItemsCenter::Private::Links::Follower::takeLinks(const Item& holder, const 
     }
 }
 
+/// What holds items from now on has to be able to before they come. A link that came from elsewhere is stronger.
+void ItemsCenter::Private::Links::Follower::takeContainers(const Item& holder, const ItemPairs& toSymbol,
+                                                           Difference& difference)
+{
+    const Item& symbol = d_.get(linkOf(holder));
+    walkMembers(holder, [&](const Item& mine) {
+        const auto changed = fields_.find(mine.id().value);
+        if (changed == fields_.end() || !changed->second.type || !mine.isContainer()) return;
+        const Item* theirs = counterpartOf(mine, toSymbol, symbol);
+        if (!theirs || isInstance(*theirs)) return;
+        difference.items.insert(theirs->id().value);
+        syncType(mine, *theirs);
+    });
+}
+
 void ItemsCenter::Private::Links::Follower::takeStructure(const Pending& pending, const Item& holder,
                                                           const Item& symbol, ItemPairs& toSymbol,
                                                           Difference& difference)
 {
     const Affine inverse = inverseOf(placementOf(holder)).value_or(kUnplaced);
     Alignment alignment{toSymbol, inverse};
+    for (const auto& [container, members] : pending.outline)
+        for (const ItemId id : members) {
+            const Item* item = d_.byId.find(id.value);
+            const bool stayed = item && item->parent()->id().value == container && toSymbol.contains(id.value);
+            if (stayed && !counterpartOf(*item, toSymbol, symbol)) alignment.gone.insert(id.value);
+        }
     const auto alignChanged = [&](const Item& container, const Item* counterpart) {
-        // Another instance may have removed it, or made of it what holds no such items.
-        if (!counterpart || isInstance(*counterpart) || !counterpart->isContainer()) return;
+        if (!counterpart || isInstance(*counterpart)) return;  // another instance may have removed or linked it
         const auto before = pending.outline.find(container.id().value);
         const auto isSame = [](const auto& child, ItemId id) { return child->id() == id; };
-        if (before != pending.outline.end() && std::ranges::equal(container.children(), before->second, isSame)) return;
+        const bool asBefore =
+            before != pending.outline.end() && std::ranges::equal(container.children(), before->second, isSame);
+        if (asBefore && !fresh_.contains(counterpart->id().value)) return;
+        if (!container.children().empty()) syncType(container, *counterpart);  // or made of it what holds no items
+        difference.items.insert(counterpart->id().value);
         difference.structure = true;
         alignMembers(container, *counterpart, alignment);
     };
@@ -252,8 +285,8 @@ void ItemsCenter::Private::Links::Follower::takeFields(const Item& holder, const
         const Item& theirs = *counterpart;
         const ChangedFields& fields = changed->second;
         difference.items.insert(theirs.id().value);
-        if (fields.type && (mine.isContainer() || theirs.children().empty()))
-            syncType(mine, theirs), syncProperties(mine, theirs, toSymbol);
+        const bool fits = mine.isContainer() ? isInstance(mine) || !isInstance(theirs) : theirs.children().empty();
+        if (fields.type && fits) syncType(mine, theirs), syncProperties(mine, theirs, toSymbol);
         for (const std::string& property : fields.properties) {
             const bool common = property == "name" || property == "visible" || property == "locked";
             if (common || mine.type() == theirs.type()) syncProperty(mine, theirs, property, toSymbol);
@@ -276,21 +309,26 @@ void ItemsCenter::Private::Links::Follower::giveOut(const Item& symbol, Receiver
         const Item* theirs = d_.byId.find(pair.first);
         return !theirs || holderOf(*theirs) != &symbol;
     });
-    for (const std::uint64_t id : difference.items)
-        if (const auto mine = receiver.pairs.find(id); mine != receiver.pairs.end())
-            syncLink(d_.get(ItemId{id}), d_.get(mine->second), placement);
+    const auto forEach = [&](auto&& visit) {
+        for (const std::uint64_t id : difference.items) {
+            const Item* theirs = d_.byId.find(id);
+            const auto found = receiver.pairs.find(id);
+            const Item* mine = found == receiver.pairs.end() ? nullptr : d_.byId.find(found->second.value);
+            if (theirs && mine) visit(*theirs, *mine);
+        }
+    };
+    forEach([&](const Item& theirs, const Item& mine) {  // as in takeIn(): what comes before the members, and after
+        if (isInstance(theirs) && !isInstance(mine)) return;
+        syncLink(theirs, mine, placement);
+        if (theirs.isContainer()) syncType(theirs, mine);
+    });
     if (difference.structure) {
         Alignment alignment{receiver.pairs, placement};
         alignAll(symbol, instance, alignment);
         removeOthers(instance, receiver.pairs);
         finish(alignment, receiver.pairs);
     }
-    for (const std::uint64_t id : difference.items) {
-        const Item* theirs = d_.byId.find(id);
-        const auto mine = receiver.pairs.find(id);
-        if (theirs && mine != receiver.pairs.end())
-            syncFields(*theirs, d_.get(mine->second), receiver.pairs, placement);
-    }
+    forEach([&](const Item& theirs, const Item& mine) { syncFields(theirs, mine, receiver.pairs, placement); });
 }
 
 void ItemsCenter::Private::Links::Follower::fill(Links& links, const Item& group, const Item& symbol)
@@ -301,6 +339,7 @@ void ItemsCenter::Private::Links::Follower::fill(Links& links, const Item& group
     Alignment alignment{pairs, kUnplaced};
     follower.alignAll(group, symbol, alignment);
     follower.finish(alignment, pairs);
+    follower.mendInstancesOf(symbol.id());  // others that showed that it was empty
 }
 
 // --- trees
@@ -308,11 +347,11 @@ void ItemsCenter::Private::Links::Follower::fill(Links& links, const Item& group
 void ItemsCenter::Private::Links::Follower::alignAll(const Item& from, const Item& to, Alignment& alignment)
 {
     alignMembers(from, to, alignment);
-    walkMembers(from, [&](const Item& item) {
-        if (!item.isContainer() || isInstance(item)) return;
-        const Item& counterpart = d_.get(alignment.pairs.at(item.id().value));
-        if (!isInstance(counterpart)) alignMembers(item, counterpart, alignment);
-    });
+    for (const auto& member : from.children()) {
+        if (!member->isContainer() || isInstance(*member)) continue;
+        const Item* counterpart = counterpartOf(*member, alignment.pairs, *holderOfMembers(to));
+        if (counterpart && !isInstance(*counterpart)) alignAll(*member, *counterpart, alignment);
+    }
 }
 
 /// Null when there is none, or not any more: it may have been removed, or moved elsewhere.
@@ -332,10 +371,14 @@ void ItemsCenter::Private::Links::Follower::alignMembers(const Item& from, const
     for (const auto& member : from.children()) {
         const Item* counterpart = counterpartOf(*member, alignment.pairs, *holderOfMembers(to));
         if (!counterpart) {
+            if (alignment.gone.contains(member->id().value) && !fresh_.contains(to.id().value)) continue;
             counterpart = &make(*member, to, index, alignment);
+        } else if (counterpart->isAncestorOf(to)) {
+            continue;  // two instances moved each into the other: the first one did
         } else if (counterpart->parent() != &to || counterpart->index() != index) {
             const std::size_t before = counterpart->index();
             const bool ahead = counterpart->parent() == &to && before < index;
+            checkDepth(to, *counterpart);
             d_.make(
                 ItemMoved{counterpart->id(), counterpart->parent()->id(), to.id(), before, index - (ahead ? 1 : 0)});
         }
@@ -346,13 +389,10 @@ void ItemsCenter::Private::Links::Follower::alignMembers(const Item& from, const
 const Item& ItemsCenter::Private::Links::Follower::make(const Item& from, const Item& parent, std::size_t index,
                                                         Alignment& alignment)
 {
-    std::size_t depth = 0;
-    for (const Item* up = &parent; up; up = up->parent()) ++depth;
-    if (depth > kMaximumDepth)
-        throw Failure(Error("items would be nested more than " + std::to_string(kMaximumDepth) +
-                            " deep in an instance; flatten the groups"));
     auto item = content_.copy(from, alignment.placement, alignment.pairs, true);
+    checkDepth(parent, *item);
     alignment.pairs[from.id().value] = item->id();
+    fresh_.insert(item->id().value);
     const Item& made = *item;
     alignment.made.emplace_back(from.id(), made.id());
     d_.make(ItemAdded{made.id(), parent.id(), index, std::move(item)});
@@ -518,6 +558,7 @@ void ItemsCenter::Private::Links::Follower::syncLink(const Item& from, const Ite
             d_.make(ItemRemoved{last.id(), to.id(), last.index(), nullptr});
         }
         for (const std::string_view id : {kLinkOffset, kLinkX, kLinkY, kLinkSymbol}) setProperty(id, Value());
+        fresh_.insert(to.id().value);
         return;
     }
     syncType(from, to);  // only a group is linked

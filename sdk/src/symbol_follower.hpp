@@ -5,6 +5,7 @@
 
 #include <set>
 #include <string>
+#include <unordered_set>
 
 namespace jet {
 
@@ -18,8 +19,8 @@ class ItemsCenter::Private::Links::Follower {
 public:
     Follower(Links& links, const Followed& now) : links_(links), d_(links.d_), now_(now), content_(links.content()) {}
     void run();
-    /// Makes sure of all instances the transaction had to do with.
-    void mend();
+    /// Makes sure of all instances that changes after the first `count` had to do with.
+    void mend(std::size_t count);
     /// Makes the symbol's members from those of a group that has just become its first instance.
     static void fill(Links& links, const Item& group, const Item& symbol);
 
@@ -39,6 +40,7 @@ private:
         ItemPairs& pairs;
         const Affine& placement;
         std::vector<std::pair<ItemId, ItemId>> made = {};
+        std::unordered_set<std::uint64_t> gone = {};  // members whose counterparts another instance removed
     };
 
     void collectFields();
@@ -46,14 +48,15 @@ private:
     std::vector<Receiver> receivers(const Base& base) const;
     Difference directly(const Item& symbol) const;
     void takeIn(const Pending& pending, ItemPairs& toSymbol, Difference& difference);
-    void takeLinks(const Item& holder, const ItemPairs& toSymbol, Difference& difference);
+    void takeLinks(const Item& holder, const ItemPairs& toSymbol, Difference& difference, bool ofNewInstances);
+    void takeContainers(const Item& holder, const ItemPairs& toSymbol, Difference& difference);
     void takeStructure(const Pending& pending, const Item& holder, const Item& symbol, ItemPairs& toSymbol,
                        Difference& difference);
     void takeFields(const Item& holder, const ItemPairs& toSymbol, Difference& difference);
     void giveOut(const Item& symbol, Receiver& receiver, const Difference& difference);
 
-    std::set<ItemId> concerned() const;
-    void mend(ItemId symbol);
+    std::set<ItemId> concerned(std::size_t count) const;
+    void mendInstancesOf(ItemId symbol);
     bool isExact(const Item& symbol, const Item& instance) const;
     void alignMembers(const Item& from, const Item& to, Alignment& alignment);
     void alignAll(const Item& from, const Item& to, Alignment& alignment);
@@ -75,6 +78,7 @@ private:
     const Followed& now_;
     InstanceContent content_;
     std::unordered_map<std::uint64_t, ChangedFields> fields_;
+    std::unordered_set<std::uint64_t> fresh_;  // of the symbol, made or unlinked for an instance: without members yet
 };
 
 /// Tells `pair(item, counterpart)` for all members of an instance, given the outline its symbol had.

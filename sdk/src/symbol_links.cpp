@@ -236,6 +236,7 @@ void ItemsCenter::Private::Links::follow()
     following_ = true;
     try {
         Follower(*this, now).run();
+        mend();
     } catch (...) {
         following_ = false;
         d_.revertTo(now.begin);
@@ -245,7 +246,13 @@ void ItemsCenter::Private::Links::follow()
     }
     following_ = false;
     now.end = d_.changes.size();
-    if (now.end > now.begin) followed_.push_back(std::move(now));
+    followed_.push_back(std::move(now));  // also without changes: what is taken back may make some necessary
+}
+
+void ItemsCenter::Private::Links::mend()
+{
+    const Followed nothing;
+    Follower(*this, nothing).mend(exactAfter());
 }
 
 void ItemsCenter::Private::Links::finish()
@@ -253,10 +260,9 @@ void ItemsCenter::Private::Links::finish()
     follow();
     if (!hasSymbols() || d_.changes.empty()) return;
     const std::size_t before = d_.changes.size();
-    const Followed nothing;
     following_ = true;
     try {
-        Follower(*this, nothing).mend();
+        mend();
     } catch (...) {
         following_ = false;
         d_.revertTo(before);
@@ -284,6 +290,7 @@ void ItemsCenter::Private::Links::set(const Item& item, std::string_view propert
     if (property == kSymbolKey) fail("the key of a symbol cannot be changed");
     if (!value.isNone()) spec.check(value).orThrow();
     if (property == kLinkSymbol) return relink(item, value.isNone() ? ItemId{} : value.as<ItemId>());
+    settle(item);
     if (!isInstance(item)) fail("'" + item.name() + "' is not an instance of a symbol");
     Affine placement = placementOf(item);
     const Vec2 part = (value.isNone() ? spec.fallback : value).as<Vec2>();
@@ -295,12 +302,16 @@ void ItemsCenter::Private::Links::set(const Item& item, std::string_view propert
 
 void ItemsCenter::Private::Links::relink(const Item& group, ItemId symbol)
 {
-    const ItemId old = linkOf(group);
-    if (old == symbol) return;
+    if (linkOf(group) == symbol) return;
     const Item* own = symbol ? d_.byId.find(symbol.value) : nullptr;
     if (symbol && (!own || !isSymbol(*own))) fail("there is no symbol of that number in this scene");
     settle(group);
-    if (symbol) settle(*own);
+    if (own) settle(*own);
+    if (own && own->children().empty()) follow();  // it may get its members from the group; others await some, too
+    d_.own(group);
+    if (!group.is<GroupItem>()) fail("'" + group.name() + "' is no longer a group");
+    const ItemId old = linkOf(group);
+    if (old == symbol) return;
     const auto setProperty = [&](std::string_view id, Value to) {
         const Value* stored = group.properties().find(id);
         Value before = stored ? *stored : Value();
@@ -337,6 +348,13 @@ void ItemsCenter::Private::Links::relink(const Item& group, ItemId symbol)
     following_ = false;
 }
 
+void ItemsCenter::Private::Links::checkDepth(const Item& parent, const Item& subtree)
+{
+    if (depthOf(parent) + 1 + heightOf(subtree) > kMaximumDepth)
+        fail("items would be nested more than " + std::to_string(kMaximumDepth) +
+             " deep in an instance; flatten the groups");
+}
+
 void ItemsCenter::Private::Links::replaceContent(const Item& instance)
 {
     while (!instance.children().empty()) {
@@ -344,8 +362,13 @@ void ItemsCenter::Private::Links::replaceContent(const Item& instance)
         d_.make(ItemRemoved{last.id(), instance.id(), last.index(), nullptr});
     }
     InstanceContent made = content();
-    for (auto& item : made.of(d_.get(linkOf(instance)), placementOf(instance)))
+    for (auto& item : made.of(d_.get(linkOf(instance)), placementOf(instance))) {
+        checkDepth(instance, *item);
+        item->walk([](const Item& one) {
+            if (!one.path().isFinite()) fail("'" + one.name() + "' would lie beyond all numbers");
+        });
         d_.make(ItemAdded{item->id(), instance.id(), instance.children().size(), std::move(item)});
+    }
 }
 
 void ItemsCenter::Private::Links::setPlacementProperties(const Item& instance, const Affine& placement)
@@ -365,7 +388,6 @@ void ItemsCenter::Private::Links::setPlacementProperties(const Item& instance, c
 void ItemsCenter::Private::Links::place(const Item& instance, const Affine& wanted)
 {
     const Affine placement = withoutSignedZeros(wanted);
-    settle(instance);
     const std::size_t before = d_.changes.size();
     const bool was = following_;
     try {
@@ -380,11 +402,24 @@ void ItemsCenter::Private::Links::place(const Item& instance, const Affine& want
     following_ = was;
 }
 
+bool ItemsCenter::Private::Links::isShapedLike(const Item& theirs, const Item& mine) const
+{
+    return std::ranges::equal(theirs.children(), mine.children(), [&](const auto& a, const auto& b) {
+        const ItemId inner = linkOf(*a);
+        return inner == linkOf(*b) && isShapedLike(inner ? d_.get(inner) : *a, *b);
+    });
+}
+
 void ItemsCenter::Private::Links::moveContent(const Item& symbol, const Item& instance, const Affine& placement)
 {
-    for (std::size_t i = 0; i < instance.children().size(); ++i) {
-        const Item& theirs = *symbol.children()[i];
-        const Item& mine = *instance.children()[i];
+    isShapedLike(symbol, instance) ? moveMembers(symbol, instance, placement) : replaceContent(instance);
+}
+
+void ItemsCenter::Private::Links::moveMembers(const Item& container, const Item& counterpart, const Affine& placement)
+{
+    for (std::size_t i = 0; i < container.children().size(); ++i) {
+        const Item& theirs = *container.children()[i];
+        const Item& mine = *counterpart.children()[i];
         if (!theirs.path().isEmpty()) {
             Path path = placedPath(theirs.path(), placement);
             if (!path.isFinite()) fail("'" + mine.name() + "' would lie beyond all numbers");
@@ -393,9 +428,9 @@ void ItemsCenter::Private::Links::moveContent(const Item& symbol, const Item& in
         if (const ItemId inner = linkOf(theirs)) {
             const Affine place = innerPlacement(placement, theirs);
             setPlacementProperties(mine, place);
-            moveContent(d_.get(inner), mine, place);
+            moveMembers(d_.get(inner), mine, place);
         } else {
-            moveContent(theirs, mine, placement);
+            moveMembers(theirs, mine, placement);
         }
     }
 }

@@ -2,9 +2,14 @@
 //
 // Between transactions each instance holds the same items as its symbol, with paths mapped by its placement: exactly
 // the same, bit by bit, so that files need not store them. While a transaction is open, the instances it changes
-// something in differ. Before the first such change it is noted who is whose counterpart (before()); at the commit the
-// changes are taken into the symbol and from there into all its instances (follow()). What that does are changes as any
-// others, recorded in the transaction: undo, events and the journal need to know nothing of symbols.
+// something in differ. Before the first such change it is noted who is whose counterpart (before()); at the commit, or
+// before a call that reads what they hold (settle()), the changes are taken into the symbol and from there into all its
+// instances (follow()). What that does are changes as any others, recorded in the transaction: undo, events and the
+// journal need to know nothing of symbols.
+//
+// Counterparts are told by their places, so all rests on this: after follow() every instance is exact again, whatever
+// contradicted itself (mend()), and what is not pending is as it was then. A call settles before it looks at anything:
+// following may change, link or remove the very item it was given.
 #pragma once
 
 #include "scene_state.hpp"
@@ -93,15 +98,16 @@ public:
     /// Changes after the first `count` were taken back.
     void reverted(std::size_t count);
     void close();
-    /// Lets the instances follow; part of the open transaction.
+    /// Lets the instances follow; part of the open transaction. Each is then what its symbol makes of it.
     void follow();
-    /// At the commit: lets them follow, and makes sure that each is what its symbol makes of it.
+    /// At the commit: the same, also for what needed no following.
     void finish();
     /// Lets them follow, if something in that subtree waits for it.
     void settle(const Item& subtree);
 
     /// Sets a property of a link: of the group's own, or of the symbol's key.
     void set(const Item& item, std::string_view property, const Value& value);
+    /// The instance is settled.
     void place(const Item& instance, const Affine& placement);
     /// After a subtree was copied from another scene: leads its instances to this scene's symbols, or brings those.
     void adopt(const Item& source, Item& copy);
@@ -138,7 +144,14 @@ private:
     void relink(const Item& group, ItemId symbol);
     void setPlacementProperties(const Item& instance, const Affine& placement);
     void replaceContent(const Item& instance);
+    static void checkDepth(const Item& parent, const Item& subtree);
+    /// Keeps the items, if they are those of the symbol.
     void moveContent(const Item& symbol, const Item& instance, const Affine& placement);
+    bool isShapedLike(const Item& theirs, const Item& mine) const;
+    void moveMembers(const Item& container, const Item& counterpart, const Affine& placement);
+    /// The number of changes after which all instances were exact for the last time.
+    std::size_t exactAfter() const { return followed_.empty() ? 0 : followed_.back().end; }
+    void mend();
     const Item& symbolFor(const Item& foreign, const Private& other);
     std::unique_ptr<Item> bring(const Item& member, const Private& other, ItemPairs& pairs);
     InstanceContent content();

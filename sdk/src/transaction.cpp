@@ -96,6 +96,20 @@ ItemsCenter& Transaction::open() const
     return *center_;
 }
 
+std::size_t depthOf(const Item& item)
+{
+    std::size_t depth = 0;
+    for (const Item* up = item.parent(); up; up = up->parent()) ++depth;
+    return depth;
+}
+
+std::size_t heightOf(const Item& item)
+{
+    std::size_t height = 0;
+    for (const auto& child : item.children()) height = std::max(height, heightOf(*child) + 1);
+    return height;
+}
+
 namespace {
 
 /// Takes back what was done when it fails half-way.
@@ -109,20 +123,6 @@ decltype(auto) wholly(Center& d, Work work)
         before.restore();
         throw;
     }
-}
-
-// Depth below the top group; what the subtree adds to it.
-std::size_t depthOf(const Item& item)
-{
-    std::size_t depth = 0;
-    for (const Item* up = item.parent(); up; up = up->parent()) ++depth;
-    return depth;
-}
-std::size_t heightOf(const Item& item)
-{
-    std::size_t height = 0;
-    for (const auto& child : item.children()) height = std::max(height, heightOf(*child) + 1);
-    return height;
 }
 
 void checkPlace(const Item& parent, std::size_t height)
@@ -200,7 +200,9 @@ const Item& Transaction::addCopy(const Item& source, const Item& parent, std::op
         fail("a symbol is not copied; place an instance of it");
     const bool own = d.owns(source);
     return wholly(d, [&]() -> const Item& {
-        if (own) d.links->settle(source), d.own(parent);
+        own ? d.links->settle(source) : d.links->follow();
+        d.own(parent);
+        checkPlace(parent, heightOf(source));  // again, as all of them may have followed
         ItemPairs ids;
         auto copy = deepCopy(source, d.nextId, ids);
         redirectCopies(source, *copy, ids, own);
@@ -311,6 +313,7 @@ template <class Center>
 void changeType(Center& d, const Item& item, std::string_view type, const PropertyTable& table)
 {
     d.links->settle(item);
+    if (item.type() == type) return;
     if (!item.children().empty() && type != GroupItem::type && type != LayerItem::type)
         fail("'" + item.name() + "' holds other items, so it must stay a group or layer");
     std::vector<PropertyChanged> dropped;
