@@ -186,7 +186,7 @@ TEST_F(CrossingSymbols, AnInstanceFromAnotherSceneShowsTheSymbolAsItIsByNow)
 {
     const auto there = scene.clone(other_);
     edit([&](Transaction& t) {
-        t.set(t.add<GroupItem>(wheel(), {}, 0), "name", "First");
+        t.set(t.add(GroupItem::type, wheel(), {}, 0), "name", "First");
         const Item& copy = t.addCopy(*there->items().find(second_), layer());
         t.set(in(copy, "Hub"), "name", "Axle");
     });
