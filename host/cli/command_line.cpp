@@ -238,7 +238,7 @@ std::optional<int> mistypedCommand(const CLI::App& app, const std::filesystem::p
     return std::nullopt;
 }
 
-/// A word that is no command is the project to edit, if there is one of that name.
+/// A word that is no command is the project to edit, if there is one of that name. What looks like a slip is one.
 std::optional<int> editorProject(const CLI::App& app, const std::filesystem::path& project)
 {
     std::error_code ignored;
@@ -247,7 +247,7 @@ std::optional<int> editorProject(const CLI::App& app, const std::filesystem::pat
     const std::string hint = nearest.empty() ? "'jet project new DIR' makes one, and 'jet --help' lists the commands"
                                              : "did you mean the command '" + nearest + "'?";
     std::fprintf(stderr, "%s: error: there is no such project; %s\n", project.c_str(), hint.c_str());
-    return kFailed;
+    return nearest.empty() ? kFailed : kUsage;
 }
 
 }  // namespace

@@ -19,6 +19,12 @@ void put(duk_context* ctx, const char* name, bool value)
     duk_put_prop_string(ctx, -2, name);
 }
 
+void put(duk_context* ctx, const char* name, std::nullptr_t)
+{
+    duk_push_null(ctx);
+    duk_put_prop_string(ctx, -2, name);
+}
+
 void put(duk_context* ctx, const char* name, std::string_view value)
 {
     pushText(ctx, value);
@@ -80,6 +86,14 @@ void putCollision(duk_context* ctx, Play& play, const ScriptEvent& event)
     put(ctx, "impulse", event.contact.impulse);
 }
 
+/// Null where the engine tells that two bodies touch, but not where.
+void putPlace(duk_context* ctx, Play& play, const Contact& contact)
+{
+    const bool known = contact.normal != Vec2(0, 0);
+    for (const auto& [name, value] : {std::pair("point", contact.point), std::pair("normal", contact.normal)})
+        known ? put(ctx, play, name, value) : put(ctx, name, nullptr);
+}
+
 }  // namespace
 
 void pushEvent(duk_context* ctx, const ScriptEvent& event)
@@ -100,6 +114,7 @@ void pushEvent(duk_context* ctx, const ScriptEvent& event)
     case ScriptEventKind::BodyCollision: putCollision(ctx, play, event); break;
     case ScriptEventKind::ContactBegin:
         putBodies(ctx, play, event);
+        putPlace(ctx, play, event.contact);
         put(ctx, "impulse", event.contact.impulse);
         break;
     case ScriptEventKind::ContactEnd: putBodies(ctx, play, event); break;

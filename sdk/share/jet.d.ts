@@ -262,6 +262,10 @@ interface ContactBeginEvent extends JetEvent {
     itemB: Item;
     bodyA: Body;
     bodyB: Body;
+    /** Where they push hardest; null if the engine does not tell. */
+    point: Vec2d | null;
+    /** Unit, from B to A; null as the point. */
+    normal: Vec2d | null;
     /** Of the step in which they began, along their normals. */
     impulse: number;
 }

@@ -32,6 +32,24 @@ std::vector<ContactEvent> difference(const std::set<Pair>& told, std::span<const
 
 }  // namespace
 
+namespace {
+
+/// Of each pair that begins, the point of those the engine tells where it pushes hardest.
+std::map<Pair, Contact> hardestPoints(const std::vector<ContactEvent>& events, const std::vector<Contact>& contacts)
+{
+    std::map<Pair, Contact> hardest;
+    for (const ContactEvent& event : events)
+        if (event.begins) hardest[{event.bodyA, event.bodyB}].impulse = -1;
+    if (hardest.empty()) return hardest;
+    for (const Contact& contact : contacts)
+        if (const auto found = hardest.find(pairOf(contact));
+            found != hardest.end() && contact.impulse > found->second.impulse)
+            found->second = contact;
+    return hardest;
+}
+
+}  // namespace
+
 std::vector<ContactEvent> Simulation::Private::contactEvents()
 {
     if (!contactListening || !contactListening->listensToContacts()) {
@@ -50,13 +68,19 @@ std::vector<ContactEvent> Simulation::Private::contactEvents()
     return events;
 }
 
-void Simulation::Private::dispatchContacts(const std::vector<ContactEvent>& events)
+void Simulation::Private::dispatchContacts(const std::vector<ContactEvent>& events,
+                                           const std::vector<Contact>& contacts)
 {
+    const std::map<Pair, Contact> points = hardestPoints(events, contacts);
     for (const ContactEvent& event : events) {
         if (event.bodyA >= bodies.size() || event.bodyB >= bodies.size()) continue;  // of no item
         ScriptEvent told{
             event.begins ? ScriptEventKind::ContactBegin : ScriptEventKind::ContactEnd, {}, {}, {}, {}, {}};
         told.bodyA = bodies[event.bodyA].item, told.bodyB = bodies[event.bodyB].item;
+        if (const auto found = points.find({event.bodyA, event.bodyB}); found != points.end()) {
+            told.contact = found->second;
+            if (told.contact.bodyA != event.bodyA) told.contact.normal = -told.contact.normal;
+        }
         told.contact.bodyA = event.bodyA, told.contact.bodyB = event.bodyB, told.contact.impulse = event.impulse;
         scripts->dispatch(told);
     }
@@ -76,17 +100,18 @@ void Simulation::Private::dispatchCollisions(const std::vector<Contact>& contact
     }
 }
 
-/// Both are taken before the first listener is called: it may act on the world.
+/// All are taken before the first listener is called: it may act on the world.
 void Simulation::Private::dispatchTouches()
 {
     const std::vector<ContactEvent> events = contactEvents();
     std::vector<Contact> contacts;
-    if (scripts->listensTo(ScriptEventKind::BodyCollision)) {
+    const bool collisions = scripts->listensTo(ScriptEventKind::BodyCollision);
+    if (collisions || std::ranges::any_of(events, &ContactEvent::begins)) {
         const std::span<const Contact> told = world->contacts();
         contacts.assign(told.begin(), told.end());
     }
-    dispatchContacts(events);
-    dispatchCollisions(contacts);
+    dispatchContacts(events, contacts);
+    if (collisions) dispatchCollisions(contacts);
 }
 
 }  // namespace jet

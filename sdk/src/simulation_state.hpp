@@ -90,7 +90,7 @@ struct Simulation::Private {
 
     // What scripts hear of touches; see simulation_contacts.cpp.
     std::vector<ContactEvent> contactEvents();
-    void dispatchContacts(const std::vector<ContactEvent>& events);
+    void dispatchContacts(const std::vector<ContactEvent>& events, const std::vector<Contact>& contacts);
     void dispatchCollisions(const std::vector<Contact>& contacts);
     void dispatchTouches();
 };

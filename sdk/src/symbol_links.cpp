@@ -236,7 +236,7 @@ void ItemsCenter::Private::Links::follow()
     following_ = true;
     try {
         Follower(*this, now).run();
-        mend();
+        mend(exactAfter());
     } catch (...) {
         following_ = false;
         d_.revertTo(now.begin);
@@ -249,10 +249,10 @@ void ItemsCenter::Private::Links::follow()
     followed_.push_back(std::move(now));  // also without changes: what is taken back may make some necessary
 }
 
-void ItemsCenter::Private::Links::mend()
+void ItemsCenter::Private::Links::mend(std::size_t count)
 {
     const Followed nothing;
-    Follower(*this, nothing).mend(exactAfter());
+    Follower(*this, nothing).mend(count);
 }
 
 void ItemsCenter::Private::Links::finish()
@@ -262,7 +262,7 @@ void ItemsCenter::Private::Links::finish()
     const std::size_t before = d_.changes.size();
     following_ = true;
     try {
-        mend();
+        mend(0);  // of the whole transaction, whatever was followed and taken back in it
     } catch (...) {
         following_ = false;
         d_.revertTo(before);

@@ -151,7 +151,8 @@ private:
     void moveMembers(const Item& container, const Item& counterpart, const Affine& placement);
     /// The number of changes after which all instances were exact for the last time.
     std::size_t exactAfter() const { return followed_.empty() ? 0 : followed_.back().end; }
-    void mend();
+    /// Makes sure of all instances that changes after the first `count` had to do with.
+    void mend(std::size_t count);
     const Item& symbolFor(const Item& foreign, const Private& other);
     std::unique_ptr<Item> bring(const Item& member, const Private& other, ItemPairs& pairs);
     InstanceContent content();

@@ -33,7 +33,7 @@ struct ScriptEvent {
     KeyEvent key;          ///< Key*
     PointerEvent pointer;  ///< Pointer*
     ItemId bodyA, bodyB;   ///< BodyCollision, Contact*
-    Contact contact;       ///< BodyCollision; of ContactBegin its impulse alone
+    Contact contact;  ///< BodyCollision; ContactBegin: where it pushes hardest, all impulse; no normal: not known where
 };
 
 /// The scripts of one running simulation. Used on the simulation's thread only; destroyed before the Simulation.

@@ -27,7 +27,7 @@ TEST_F(ProjectCommandTest, ANewProjectIsFineAndNamedAfterItsFolder)
 TEST_F(ProjectCommandTest, AWordThatIsNoCommandIsAProjectThatMustExist)
 {
     const Outcome slip = jet("plya");
-    EXPECT_EQ(slip.code, 1);
+    EXPECT_EQ(slip.code, 2);
     EXPECT_EQ(slip.err, "plya: error: there is no such project; did you mean the command 'play'?\n");
     const Outcome more = jet("convret a.svg b.png --width 40");
     EXPECT_EQ(more.code, 2);
@@ -38,7 +38,9 @@ TEST_F(ProjectCommandTest, AWordThatIsNoCommandIsAProjectThatMustExist)
               "error: 'lits' is no command of 'jet plugins'; did you mean 'list'? 'jet plugins --help' lists them\n");
     // An option that may come several times takes one word each time, not the project behind it.
     EXPECT_THAT(jet("--watch x games/none").err, HasSubstr("games/none: error: there is no such project"));
-    EXPECT_THAT(jet("games/none").err, HasSubstr("games/none: error: there is no such project; 'jet project new DIR'"));
+    const Outcome missing = jet("games/none");
+    EXPECT_EQ(missing.code, 1);
+    EXPECT_THAT(missing.err, HasSubstr("games/none: error: there is no such project; 'jet project new DIR'"));
 }
 
 TEST_F(ProjectCommandTest, CheckNamesFileLineAndColumn)

@@ -74,6 +74,19 @@ TEST_P(ScriptContacts, TheImpulseStopsWhatFell)
     EXPECT_EQ(printed()[0], "true true") << "mass 1 at some 89 units/s";
 }
 
+// Of the ground, which is drawn first, to the ball, whichever of the two the engine calls A.
+TEST_P(ScriptContacts, ABeginningTellsWhereAndWhichWay)
+{
+    ground(), ball({30, 50});
+    script("JetSystem.addEventListener('onContactBegin', function (e) {"
+           "    print(e.itemA.name, Math.abs(e.point.x - 30) < 11, Math.abs(e.point.y - 100) < 2,"
+           "          Math.abs(e.normal.x) < 0.01, e.normal.y > 0.99);"
+           "});");
+    play(2);
+    ASSERT_FALSE(printed().empty());
+    EXPECT_EQ(printed()[0], "Ground true true true true");
+}
+
 TEST_P(ScriptContacts, WhoListensLaterHearsOfAllThatTouchAndOfNothingTwice)
 {
     ground(), ball({0, 89}), listenFrom(300);
