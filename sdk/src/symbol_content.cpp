@@ -122,6 +122,22 @@ void redirectOwnReferences(Item& item, const ItemPairs& pairs, bool keepOthers)
             effect.properties = redirected(effect.properties, pairs, keepOthers);
 }
 
+void referAs(const Item& member, Item& item, const ItemPairs& pairs)
+{
+    const auto refer = [&](const Properties& theirs, const Properties& mine) {
+        Properties result = mine;
+        for (const auto& [id, value] : theirs.entries())
+            if (value.get<ItemId>() && id != kLinkSymbol) result.set(id, withCounterparts(value, pairs));
+        return result;
+    };
+    if (hasReference(member.properties()))
+        Item::Mutator::setProperties(item, refer(member.properties(), item.properties()));
+    for (std::size_t i = 0; i < std::min(member.effects().size(), item.effects().size()); ++i)
+        if (hasReference(member.effects()[i].properties))
+            Item::Mutator::effects(item)[i].properties =
+                refer(member.effects()[i].properties, item.effects()[i].properties);
+}
+
 void redirectReferences(Item& item, const ItemPairs& pairs, bool keepOthers)
 {
     redirectOwnReferences(item, pairs, keepOthers);

@@ -2,7 +2,8 @@
 
 #include "bits.hpp"
 
-#include <ranges>
+#include <algorithm>
+#include <span>
 
 namespace jet {
 
@@ -77,7 +78,7 @@ std::set<ItemId> ItemsCenter::Private::Links::Follower::concerned(std::size_t co
         const Item* holder = asContainer ? holderOfMembers(*item) : holderOf(*item);
         if (holder) symbols.insert(isSymbol(*holder) ? holder->id() : linkOf(*holder));
     };
-    for (const Change& change : d_.changes | std::views::drop(count)) {
+    for (const Change& change : std::span(d_.changes).subspan(std::min(count, d_.changes.size()))) {
         note(changedItem(change), false);
         if (const auto* added = std::get_if<ItemAdded>(&change)) note(added->parent, true);
         if (const auto* removed = std::get_if<ItemRemoved>(&change)) note(removed->parent, true);

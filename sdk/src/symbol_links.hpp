@@ -39,6 +39,8 @@ Value withCounterparts(const Value& value, const ItemPairs& pairs);
 void redirectOwnReferences(Item& item, const ItemPairs& pairs, bool keepOthers);
 /// Of an item and its members, too.
 void redirectReferences(Item& item, const ItemPairs& pairs, bool keepOthers);
+/// Lets the references of an item in an instance be what those of the symbol's member become.
+void referAs(const Item& member, Item& item, const ItemPairs& pairs);
 
 /// All items an item owns by itself: not those of instances in it, but these instances.
 template <class Visit>

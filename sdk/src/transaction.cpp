@@ -5,6 +5,7 @@
 #include "utf8.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace jet {
 
@@ -169,24 +170,51 @@ std::unique_ptr<Item> deepCopy(const Item& source, std::uint64_t& nextId, ItemPa
 
 void pairMembers(const Item& source, const Item& copy, ItemPairs& pairs)
 {
-    for (std::size_t i = 0; i < source.children().size(); ++i) {
+    for (std::size_t i = 0; i < std::min(source.children().size(), copy.children().size()); ++i) {
         const Item& member = *source.children()[i];
         pairs.emplace(member.id().value, copy.children()[i]->id());
         if (!isInstance(member)) pairMembers(member, *copy.children()[i], pairs);
     }
 }
 
-// References between items of the copied subtree lead to the copies. Others stay within a scene; in another scene their
-// numbers would mean other items, so there they lead nowhere. What is in an instance refers to what its symbol says.
-void redirectCopies(const Item& source, Item& copy, const ItemPairs& ids, bool keepOthers)
+using SymbolOf = std::function<const Item&(ItemId)>;
+
+// What is in an instance refers to what its symbol says: to the counterpart of a member, or to that very item, even
+// where it is in this instance.
+void referAs(const SymbolOf& symbolOf, const Item& symbol, Item& instance)
+{
+    ItemPairs pairs;
+    pairMembers(symbol, instance, pairs);
+    const auto refer = [&](auto&& self, const Item& container, Item& copy) -> void {
+        for (std::size_t i = 0; i < std::min(container.children().size(), copy.children().size()); ++i) {
+            const Item& theirs = *container.children()[i];
+            Item& mine = *Item::Mutator::child(copy, i);
+            referAs(theirs, mine, pairs);
+            isInstance(theirs) ? referAs(symbolOf, symbolOf(linkOf(theirs)), mine) : self(self, theirs, mine);
+        }
+    };
+    refer(refer, symbol, instance);
+}
+
+// References between items of the copied subtree lead to the copies. Others stay.
+void redirectCopies(const SymbolOf& symbolOf, const Item& source, Item& copy, const ItemPairs& ids)
+{
+    redirectOwnReferences(copy, ids, true);
+    if (const ItemId link = linkOf(source)) return referAs(symbolOf, symbolOf(link), copy);
+    for (std::size_t i = 0; i < copy.children().size(); ++i)
+        redirectCopies(symbolOf, *source.children()[i], *Item::Mutator::child(copy, i), ids);
+}
+
+// The same of a subtree of another scene, where the numbers of others would mean other items: they lead nowhere.
+void redirectForeign(const Item& source, Item& copy, const ItemPairs& ids, bool keepOthers)
 {
     redirectOwnReferences(copy, ids, keepOthers);
     ItemPairs inner;
     const bool linked = isInstance(source);
     if (linked) pairMembers(source, copy, inner);
     for (std::size_t i = 0; i < copy.children().size(); ++i)
-        redirectCopies(*source.children()[i], *Item::Mutator::child(copy, i), linked ? inner : ids,
-                       linked || keepOthers);
+        redirectForeign(*source.children()[i], *Item::Mutator::child(copy, i), linked ? inner : ids,
+                        linked || keepOthers);
 }
 
 }  // namespace
@@ -205,7 +233,8 @@ const Item& Transaction::addCopy(const Item& source, const Item& parent, std::op
         checkPlace(parent, heightOf(source));  // again, as all of them may have followed
         ItemPairs ids;
         auto copy = deepCopy(source, d.nextId, ids);
-        redirectCopies(source, *copy, ids, own);
+        own ? redirectCopies([&](ItemId id) -> const Item& { return d.get(id); }, source, *copy, ids)
+            : redirectForeign(source, *copy, ids, false);
         if (!own) d.links->adopt(source, *copy);
         const Item& added = *copy;
         const std::size_t count = parent.children().size();

@@ -318,6 +318,21 @@ TEST_F(Symbols, ReferencesInsideOfASymbolStayInsideOfEachInstance)
     expectExact();
 }
 
+// Copies once referred to their own tyre, which neither the symbol says nor the file gave back.
+TEST_F(Symbols, AMemberThatRefersIntoOneInstanceDoesSoInCopiesOfItToo)
+{
+    edit([&](Transaction& t) { t.add("rope", first(), Path::line({0, 0}, {5, 5})); });
+    edit([&](Transaction& t) { t.set(*wheel().children()[2], "target", tyre_); });
+    expectExact();
+    edit([&](Transaction& t) { t.addCopy(layer(), layer()); });
+    expectExact();
+    std::vector<ItemId> targets;
+    scene.root().walk([&](const Item& item) {
+        if (item.type() == "rope") targets.push_back(item.property("target")->as<ItemId>());
+    });
+    EXPECT_THAT(targets, testing::AllOf(SizeIs(4), testing::Each(tyre_)));
+}
+
 TEST_F(Symbols, AnInstanceFlattenedToALineTakesNoPointsIntoTheSymbol)
 {
     edit([&](Transaction& t) { t.transform(second(), Affine::scaling({1, 0})); });
