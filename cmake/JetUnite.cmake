@@ -1,6 +1,7 @@
-# Several tests of a program compiled as one: what they include is read and instantiated once for all of them. For builds from
-# nothing, as continuous integration has them (docs/decisions/0088); whoever works at a test compiles that one alone.
-option(JET_UNITE_TESTS "Compile up to six sources of a test program as one" OFF)
+# Several sources compiled as one: what they include is read and instantiated once for all of them. For builds from nothing, as
+# continuous integration has them (docs/decisions/0088): of tests, and of what draws windows, whose headers are the largest.
+# Whoever works at a source compiles that one alone.
+option(JET_UNITE "Compile up to six sources of a test program, or of a library with Qt's widgets, as one" OFF)
 
 # What a source defines in its first column, by name; helpers of tests stand in a namespace without a name.
 function(jet_names_of source result)
@@ -21,14 +22,19 @@ endfunction()
 
 # Sources with a name in common come into different groups.
 function(jet_unite target)
-    if(NOT JET_UNITE_TESTS)
+    if(NOT JET_UNITE)
         return()
     endif()
     set(last -1)
+    get_target_property(folder ${target} SOURCE_DIR)
     foreach(source IN LISTS ARGN)
-        set(file "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
-        if(NOT EXISTS "${file}")
+        get_filename_component(file "${source}" ABSOLUTE BASE_DIR "${folder}")
+        if(NOT EXISTS "${file}" OR NOT file MATCHES "\\.cpp$")
             continue()  # objects, and sources of others
+        endif()
+        file(STRINGS "${file}" entry REGEX "^JET_PLUGIN\\(" LIMIT_COUNT 1)
+        if(entry)
+            continue()  # tests of several plugins leave out what makes each of them a library
         endif()
         jet_names_of("${file}" names)
         set(group 0)
@@ -49,9 +55,27 @@ function(jet_unite target)
         endif()
         list(APPEND names_${group} ${names})
         math(EXPR members_${group} "${members_${group}} + 1")
-        set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${target}-${group}")
+        set_source_files_properties("${file}" TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP "${target}-${group}")
     endforeach()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     # To g++ sources that are included are headers, whose classes should not stand on what has no name outside.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
+# All libraries of the folder, and of those below it, that link to Qt's widgets.
+function(jet_unite_widgets folder)
+    get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target IN LISTS targets)
+        get_target_property(type ${target} TYPE)
+        get_target_property(united ${target} UNITY_BUILD)
+        get_target_property(sources ${target} SOURCES)
+        jet_linked_by(${target} linked)
+        if(type MATCHES "_LIBRARY$" AND NOT united AND sources AND Qt6::Widgets IN_LIST linked)
+            jet_unite(${target} ${sources})
+        endif()
+    endforeach()
+    get_property(folders DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+    foreach(below IN LISTS folders)
+        jet_unite_widgets("${below}")
+    endforeach()
 endfunction()
