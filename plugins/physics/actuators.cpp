@@ -68,7 +68,7 @@ void addCouple(State& state, const BodyRecord& body, double torque)
 {
     Nodes& nodes = state.nodes;
     if (body.rigid) {
-        nodes.torque[body.nodes.first] += torque;
+        nodes.torque.add(body.nodes.first, torque);
         return;
     }
     double mass = 0, inertia = 0;
@@ -81,7 +81,7 @@ void addCouple(State& state, const BodyRecord& body, double torque)
         inertia += nodes.mass[n] * (nodes.position[n] - centre).squaredNorm();
     if (!(inertia > 1e-12 * mass * body.length * body.length)) return;
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        nodes.force[n] += torque * nodes.mass[n] / inertia * perpendicular(nodes.position[n] - centre);
+        nodes.force.add(n, torque * nodes.mass[n] / inertia * perpendicular(nodes.position[n] - centre));
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ void AnchorPoint::addForce(State& state, const Vec2& force) const
 {
     const Vec2 lever = arm(state);
     for (int i = 0; i < count; ++i) {
-        state.nodes.force[node[i]] += weight[i] * force;
-        state.nodes.torque[node[i]] += cross(lever, weight[i] * force);
+        state.nodes.force.add(node[i], weight[i] * force);
+        state.nodes.torque.add(node[i], cross(lever, weight[i] * force));
     }
 }
 
@@ -166,8 +166,8 @@ double AnchorJacobian::compliance(const State& state) const
 void AnchorJacobian::addForce(State& state, double force) const
 {
     for (int i = 0; i < count_; ++i) {
-        state.nodes.force[entries_[i].node] += force * entries_[i].linear;
-        state.nodes.torque[entries_[i].node] += force * entries_[i].angular;
+        state.nodes.force.add(entries_[i].node, force * entries_[i].linear);
+        state.nodes.torque.add(entries_[i].node, force * entries_[i].angular);
     }
 }
 
@@ -176,7 +176,7 @@ void AnchorJacobian::apply(State& state, double impulse) const
     for (int i = 0; i < count_; ++i) {
         const Entry& e = entries_[i];
         state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear;
-        state.nodes.omega[e.node] += state.nodes.invInertia[e.node] * impulse * e.angular;
+        state.nodes.omega.add(e.node, state.nodes.invInertia[e.node] * impulse * e.angular);
     }
 }
 
@@ -184,10 +184,10 @@ void AnchorJacobian::applyTurning(State& state, double impulse, double most) con
 {
     for (int i = 0; i < count_; ++i) {
         const Entry& e = entries_[i];
-        double& omega = state.nodes.omega[e.node];
-        const double allowed = std::max(most, std::abs(omega));
+        const double omega = state.nodes.omega[e.node], allowed = std::max(most, std::abs(omega));
         state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear;
-        omega = std::clamp(omega + state.nodes.invInertia[e.node] * impulse * e.angular, -allowed, allowed);
+        const double pushed = omega + state.nodes.invInertia[e.node] * impulse * e.angular;
+        state.nodes.omega.set(e.node, std::clamp(pushed, -allowed, allowed));
     }
 }
 

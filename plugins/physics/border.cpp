@@ -179,7 +179,7 @@ void addPoint(State& state, const BodyRecord& body, Index node, const Vec2& loca
     Points& points = state.points;
     points.node.push_back(node);
     points.position.push_back(position);
-    if (body.rigid) points.local.cover(points.size()), points.local[points.size() - 1] = local;
+    if (body.rigid) points.local.cover(points.size()), points.local.edit(points.size() - 1) = local;
     points.collidable.push_back(0);
     if (!points.normal.empty()) points.normal.push_back(Vec2(0, 0));
 }

@@ -1,9 +1,11 @@
-// A column of numbers for which most rows need no room: those past its end read as what is usual, and what is written
-// there is lost. Of nodes only rigid ones turn, and of points only theirs have a place on their node.
+// A column of numbers for which most rows need no room: those past its end read as what is usual. Of nodes only rigid
+// ones turn, and of points only theirs have a place on their node. Who writes says what he knows of the row: edit() of
+// one that has room, set() and add() of one that may have none, where nothing but the usual may be written then.
 #pragma once
 
 #include "room.hpp"
 
+#include <cassert>
 #include <vector>
 
 namespace jet::physics {
@@ -11,7 +13,7 @@ namespace jet::physics {
 template <class T>
 class Column {
 public:
-    explicit Column(const T& usual) : usual_(usual), lost_(usual) {}
+    explicit Column(const T& usual) : usual_(usual) {}
 
     /// Room for rows below `count`.
     void cover(std::size_t count)
@@ -33,11 +35,33 @@ public:
     const std::vector<T>& values() const { return values_; }
 
     const T& operator[](std::size_t row) const { return row < values_.size() ? values_[row] : usual_; }
-    T& operator[](std::size_t row) { return row < values_.size() ? values_[row] : lost_ = usual_; }
+    T& edit(std::size_t row)
+    {
+        assert(row < values_.size());
+        return values_[row];
+    }
+    void set(std::size_t row, const T& value)
+    {
+        assert(row < values_.size() || value == usual_);
+        if (row < values_.size()) values_[row] = value;
+    }
+    /// Past the end only what leaves the usual as it is.
+    void add(std::size_t row, const T& value)
+    {
+        assert(row < values_.size() || changesNothing(value));
+        if (row < values_.size()) values_[row] += value;
+    }
 
 private:
+    /// Or is no number, which is stopped where it moves something (speed_limit.hpp).
+    bool changesNothing(const T& value) const
+    {
+        const T sum(usual_ + value);
+        return sum == usual_ || !(sum == sum);
+    }
+
     std::vector<T> values_;
-    T usual_, lost_;
+    T usual_;
 };
 
 }  // namespace jet::physics

@@ -137,9 +137,9 @@ struct ForceFields::Pull {
         Nodes& nodes = state.nodes;
         const Vec2 lever = place - nodes.position[node];
         const Vec2 force = mass * field.acceleration(place, nodes.velocityAt(node, lever), weight, h);
-        nodes.force[node] += force;
-        nodes.torque[node] += cross(lever, force);
-        if (moment > 0) nodes.torque[node] -= field.slowing(h) * moment * nodes.omega[node];
+        nodes.force.add(node, force);
+        nodes.torque.add(node, cross(lever, force));
+        if (moment > 0) nodes.torque.add(node, -(field.slowing(h) * moment * nodes.omega[node]));
     }
     void atIfCovered(Index node, const Vec2& place, double mass) const
     {

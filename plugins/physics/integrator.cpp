@@ -41,19 +41,20 @@ void integrateVelocities(State& state, const WorldSettings& settings, SoftSpring
                 continue;
             }
             if (!springs.isWide(handle))
-                springs.kernels().accelerate(nodes.velocity[first].data(),
-                                             anyForces ? nodes.force[first].data() : nullptr, &nodes.invMass[first],
-                                             body.nodes.count, {h, gravity.x(), gravity.y(), linear});
+                springs.kernels().accelerate(
+                    nodes.velocity[first].data(), anyForces ? nodes.force.edit(first).data() : nullptr,
+                    &nodes.invMass[first], body.nodes.count, {h, gravity.x(), gravity.y(), linear});
             if (angular != 1 && !body.fixed && !body.kinematic) dampTurning(nodes, body, angular);
             continue;
         }
         if (nodes.invMass[first] > 0 && !body.asleep) {
             nodes.velocity[first] =
                 linear * (nodes.velocity[first] + h * (gravity + nodes.invMass[first] * nodes.force[first]));
-            nodes.omega[first] = angular * (nodes.omega[first] + h * nodes.invInertia[first] * nodes.torque[first]);
+            nodes.omega.edit(first) =
+                angular * (nodes.omega[first] + h * nodes.invInertia[first] * nodes.torque[first]);
         }
-        nodes.force[first] = Vec2(0, 0);
-        nodes.torque[first] = 0;
+        nodes.force.set(first, Vec2(0, 0));
+        nodes.torque.set(first, 0);
     }
 }
 
@@ -87,11 +88,11 @@ void integratePositions(State& state, const SoftSprings& springs, double h)
             continue;
         }
         if (nodes.invMass[first] == 0) continue;
-        limitSpeed(nodes.velocity[first], nodes.omega[first]);
+        limitSpeed(nodes.velocity[first], nodes.omega.edit(first));
         nodes.position[first] += h * nodes.velocity[first];
         if (nodes.invInertia[first] == 0) continue;
-        nodes.angle[first] += h * nodes.omega[first];
-        nodes.rotation[first] = direction(nodes.angle[first]);
+        nodes.angle.edit(first) += h * nodes.omega[first];
+        nodes.rotation.edit(first) = direction(nodes.angle[first]);
     }
 }
 

@@ -128,9 +128,9 @@ void SoftSprings::addAngularForces(State& state)
                             nodes.velocity[spring.centre].dot(gradient.centre()) +
                             nodes.velocity[spring.b].dot(gradient.b);
         const double torque = -spring.ks * (spring.angle - spring.restAngle) - spring.kd * rate;
-        nodes.force[spring.a] += torque * gradient.a;
-        nodes.force[spring.centre] += torque * gradient.centre();
-        nodes.force[spring.b] += torque * gradient.b;
+        nodes.force.add(spring.a, torque * gradient.a);
+        nodes.force.add(spring.centre, torque * gradient.centre());
+        nodes.force.add(spring.b, torque * gradient.b);
     }
 }
 

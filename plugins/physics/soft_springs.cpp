@@ -440,8 +440,8 @@ void SoftSprings::pullOneByOne(State& state, Mesh& mesh)
         const bool crushed = length < static_cast<double>(soft::kCrushed) * rest_[i];
         const double damping = mesh.damping[k] + (crushed ? crush_ * mesh.stiffness[k] : 0);
         const Vec2 force = (mesh.stiffness[k] * (length - rest_[i]) + damping * speed) * along;
-        nodes.force[a] -= force;
-        nodes.force[b] += force;
+        nodes.force.add(a, -force);
+        nodes.force.add(b, force);
     }
 }
 

@@ -36,7 +36,7 @@ void moveLast(std::vector<T>& rows, Range from, Index to)
 template <class T>
 void moveLast(Column<T>& rows, Range from, Index to)
 {
-    for (Index i = 0; i < from.count; ++i) rows[to + i] = std::as_const(rows)[from.first + i];
+    for (Index i = 0; i < from.count; ++i) rows.set(to + i, rows[from.first + i]);
     rows.cut(from.first);
 }
 
@@ -59,7 +59,7 @@ void moveNewest(State& state, Index to)
     BodyRecord body = std::move(state.bodies.back());
     const auto handle = static_cast<Index>(state.bodies.size() - 1);
     state.bodies.pop_back();
-    state.setFilter(to, std::as_const(state.filters)[handle]);
+    state.setFilter(to, state.filters[handle]);
     state.filters.cut(handle);
     const BodyRecord& place = state.bodies[to];
     Nodes& nodes = state.nodes;
@@ -148,8 +148,8 @@ void readRigid(State& state, Index handle)
 {
     Nodes& nodes = state.nodes;
     const Index node = state.bodies[handle].nodes.first;
-    if (!isFinite(nodes.velocity[node]) || !std::isfinite(std::as_const(nodes).omega[node]))
-        limitSpeed(nodes.velocity[node], nodes.omega[node]);
+    if (!isFinite(nodes.velocity[node]) || !std::isfinite(nodes.omega[node]))
+        limitSpeed(nodes.velocity[node], nodes.omega.edit(node));
     state.readings.position[handle] = nodes.position[node];
     state.readings.velocity[handle] = nodes.velocity[node];
     state.readings.angle[handle] = nodes.angle[node];

@@ -47,7 +47,7 @@ struct Nodes {
     void applyImpulse(Index node, const Vec2& arm, const Vec2& impulse)
     {
         velocity[node] += invMass[node] * impulse;
-        omega[node] += invInertia[node] * cross(arm, impulse);
+        omega.add(node, invInertia[node] * cross(arm, impulse));
     }
 };
 
@@ -222,9 +222,9 @@ struct State {
     }
     void setFilter(Index body, const Filter& filter)
     {
-        if (filter == std::as_const(filters)[body]) return;
+        if (filter == filters[body]) return;
         filters.cover(body + 1);
-        filters[body] = filter;
+        filters.edit(body) = filter;
     }
     /// Does one of them sleep, and the other sleep or stand? Then nothing happens between them.
     bool atRest(Index a, Index b) const

@@ -198,7 +198,7 @@ BodyHandle World::setRigidMass(const RigidBodyDef& def, const std::vector<std::v
         }
     }
     if (!(second > 1e-12 * body.length * body.length)) second = body.length * body.length / 6;
-    for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.local[p] -= centre;
+    for (Index p = body.points.first; p < body.points.end(); ++p) state_.points.local.edit(p) -= centre;
 
     state_.nodes.position[body.nodes.first] = centre;
     const double gyration = std::sqrt(second);
@@ -211,7 +211,7 @@ BodyHandle World::setRigidMass(const RigidBodyDef& def, const std::vector<std::v
     if (!parts.empty()) {
         rigid_.add(state_, handle, def, parts, gyration);
     } else {
-        gyrations_.cover(handle + std::size_t{1}), gyrations_[handle] = gyration;
+        gyrations_.cover(handle + std::size_t{1}), gyrations_.edit(handle) = gyration;
     }
     applyMotion(handle);
     return handle;
@@ -226,8 +226,8 @@ void World::applyMotion(BodyHandle handle)
     body.kinematic = body.drives && body.enabled;
     const double mass = state_.nodes.mass[node];
     state_.nodes.invMass[node] = moves ? 1 / mass : 0;
-    const double gyration = body.simple ? rigid_.gyrationOf(handle) : std::as_const(gyrations_)[handle];
-    state_.nodes.invInertia[node] = moves && !body.fixedRotation ? 1 / (mass * gyration * gyration) : 0;
+    const double gyration = body.simple ? rigid_.gyrationOf(handle) : gyrations_[handle];
+    state_.nodes.invInertia.edit(node) = moves && !body.fixedRotation ? 1 / (mass * gyration * gyration) : 0;
 }
 
 void World::outlineAll()

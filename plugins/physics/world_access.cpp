@@ -57,7 +57,7 @@ void World::applyForce(BodyHandle handle, const Vec2& force)
     stepForces_.cover(state_.nodes.size());
     wakeUp(handle);
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
-        stepForces_[n] += state_.nodes.mass[n] / state_.massOf(body) * force;
+        stepForces_.add(n, state_.nodes.mass[n] / state_.massOf(body) * force);
 }
 
 void World::applyImpulse(BodyHandle handle, const Vec2& impulse)
@@ -98,7 +98,7 @@ void World::setOmega(BodyHandle handle, double omega)
     for (Index n = body.nodes.first; n < body.nodes.end(); ++n) {
         if (state_.nodes.invMass[n] == 0 && !body.kinematic) continue;
         if (body.rigid) {
-            state_.nodes.omega[n] = omega;
+            state_.nodes.omega.edit(n) = omega;
         } else {
             state_.nodes.velocity[n] += change * perpendicular(state_.nodes.position[n] - sums.centre);
         }
@@ -159,7 +159,7 @@ void World::archive(Self& self, Archive& with)
     for (Index handle = 0; handle < self.state_.bodies.size(); ++handle) {
         BodyRecord& body = self.state_.bodies[handle];
         with(body.material), with(body.gravityScale), with(body.layer);
-        Filter filter = std::as_const(self.state_.filters)[handle];
+        Filter filter = self.state_.filters[handle];
         with(filter.mask), with(filter.group), with(filter.sideX), with(filter.sideY);
         self.state_.setFilter(handle, filter);
         const auto flag = [&with](auto get, auto set) {

@@ -94,7 +94,7 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
                             " cannot become fixed or free while the world runs; " +
                             (body.rigid ? "make it kinematic" : "pin its particles") + " instead."));
     if (body.material == common.material && body.gravityScale == common.gravityScale && body.sensor == common.sensor &&
-        body.layer == common.layer && std::as_const(state_.filters)[handle] == Filter::of(common) &&
+        body.layer == common.layer && state_.filters[handle] == Filter::of(common) &&
         body.drives == (common.kinematic && !common.fixed) && body.fixedRotation == common.fixedRotation &&
         (body.soft ? body.soft->watch.mayRest == common.allowSleep : rigid_.isSet(handle, common)))
         return;
@@ -108,7 +108,7 @@ void World::setBody(BodyHandle handle, const BodyCommon& common)
     wakeUp(handle);
     if (body.rigid) {
         applyMotion(handle);
-        if (body.fixedRotation && !body.drives) state_.nodes.omega[body.nodes.first] = 0;
+        if (body.fixedRotation && !body.drives) state_.nodes.omega.edit(body.nodes.first) = 0;
         rigid_.set(state_, handle, common);
     } else {
         body.soft->watch.mayRest = common.allowSleep;
@@ -131,7 +131,8 @@ void World::setEnabled(BodyHandle handle, bool enabled)
     body.enabled = enabled;
     Nodes& nodes = state_.nodes;
     if (!enabled)
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) nodes.velocity[n] = Vec2(0, 0), nodes.omega[n] = 0;
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n)
+            nodes.velocity[n] = Vec2(0, 0), nodes.omega.set(n, 0);
     if (body.rigid) {
         applyMotion(handle);
         rigid_.enable(state_, handle, enabled);

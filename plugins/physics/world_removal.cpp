@@ -156,7 +156,7 @@ void World::removeBody(BodyHandle handle)
     forgetContacts(handle);
     queries_.remove(handle);
     if (!stepForces_.values().empty())
-        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) stepForces_[n] = Vec2(0, 0);
+        for (Index n = body.nodes.first; n < body.nodes.end(); ++n) stepForces_.set(n, Vec2(0, 0));
     if (!pinsWhileHeld_.empty())
         std::fill_n(pinsWhileHeld_.begin() + body.nodes.first, body.nodes.count, std::uint8_t{0});
     if (body.soft) {

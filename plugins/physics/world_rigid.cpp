@@ -16,7 +16,7 @@ void World::stepSimple(double dt)
     std::vector<Vec2>& force = state_.nodes.force.values();
     std::vector<double>& torque = state_.nodes.torque.values();
     if (pushed) {
-        for (Index n = 0; n < force.size(); ++n) force[n] = std::as_const(stepForces_)[n];
+        for (Index n = 0; n < force.size(); ++n) force[n] = stepForces_[n];
         std::fill(torque.begin(), torque.end(), 0.0);
         if (actuators_.any()) actuators_.addForces(state_);
         if (fields_.any())
@@ -42,8 +42,8 @@ void World::moveKinematic(double h)
         if (!body.kinematic || body.soft) continue;
         const Index node = body.nodes.first;
         nodes.position[node] += h * nodes.velocity[node];
-        nodes.angle[node] += h * nodes.omega[node];
-        nodes.rotation[node] = direction(nodes.angle[node]);
+        nodes.angle.edit(node) += h * nodes.omega[node];
+        nodes.rotation.edit(node) = direction(nodes.angle[node]);
     }
 }
 

@@ -81,7 +81,7 @@ void World::refuseExplosion()
         for (Index n = own.first; n < own.end(); ++n) away |= runsAway(n);
         if (!away) continue;
         first = std::min(first, handle);
-        for (Index n = own.first; n < own.end(); ++n) nodes.velocity[n] = Vec2(0, 0), nodes.omega[n] = 0;
+        for (Index n = own.first; n < own.end(); ++n) nodes.velocity[n] = Vec2(0, 0), nodes.omega.set(n, 0);
     }
     if (first == kNone) return;
     throw Failure(Error("Physics: body " + std::to_string(first) +

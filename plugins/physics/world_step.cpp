@@ -218,7 +218,7 @@ void World::substep(double h, int index, int count)
         twins_.apply(state_, springs_, h);
         const bool pushed = anyForces();
         if (pushed || springs_.anyOneByOne()) state_.nodes.coverForces();
-        for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force[n] += stepForces_[n];
+        for (Index n = 0; pushed_ && n < stepForces_.size(); ++n) state_.nodes.force.add(n, stepForces_[n]);
         actuators_.addForces(state_);
         if (fields_.any())
             fields_.addForces(state_, rigid_, settings_.applyGravity ? settings_.gravity : Vec2(0, 0), h);

@@ -150,7 +150,7 @@ void RigidStage::fallAsleep(State& state)
         if (still_[root] != Stillness::Rests) continue;
         group_[i] = root;
         body.asleep = true, body.posed = false;
-        state.nodes.velocity[body.node] = Vec2(0, 0), state.nodes.omega[body.node] = 0;
+        state.nodes.velocity[body.node] = Vec2(0, 0), state.nodes.omega.edit(body.node) = 0;
         state.bodies[body.handle].asleep = true;
         ++sleepers_;
     }

@@ -293,7 +293,7 @@ void RigidStage::solve(Solver<Real>& solver, State& state, const WorldSettings& 
     load(solver, state);
     look(solver, state, settings, dt, stats);
     const auto start = std::chrono::steady_clock::now();
-    const Nodes& nodes = std::as_const(state).nodes;
+    const Nodes& nodes = state.nodes;
     solver.pushBodies([&](Index i, BodyPush<Real>& force) {
         const RigidBody& body = collider_.bodies()[i];
         force = BodyPush<Real>();
@@ -367,12 +367,12 @@ void RigidStage::advance(Solver<Real>& solver, State& state, double dt)
         if ((!body.moves && !body.kinematic) || body.asleep) return;
         const double part = fast ? static_cast<double>(allowed_[i]) : 1;
         nodes.velocity[body.node] = {static_cast<double>(s.velocityX), static_cast<double>(s.velocityY)};
-        nodes.omega[body.node] = static_cast<double>(s.spin) / body.gyration;
-        limitSpeed(nodes.velocity[body.node], nodes.omega[body.node]);
+        nodes.omega.edit(body.node) = static_cast<double>(s.spin) / body.gyration;
+        limitSpeed(nodes.velocity[body.node], nodes.omega.edit(body.node));
         nodes.position[body.node] += part * moves[i];
         const double turn = part * turns[i];
         collider_.travelled(i, part * moves[i].norm() + std::abs(turn) * static_cast<double>(body.reach));
-        nodes.angle[body.node] += turn;
+        nodes.angle.edit(body.node) += turn;
     });
     arena_.release(mark);
     solver.turn(nodes, fast ? std::function<void()>([] {}) : tell);
@@ -414,8 +414,8 @@ void RigidStage::exchange(State& state, bool store)
         BodyState<double>& s = double_.body(i);
         if (store) {
             if (s.invMass == 0) continue;
-            nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega[node] = s.spin / gyration;
-            limitSpeed(nodes.velocity[node], nodes.omega[node]);
+            nodes.velocity[node] = {s.velocityX, s.velocityY}, nodes.omega.edit(node) = s.spin / gyration;
+            limitSpeed(nodes.velocity[node], nodes.omega.edit(node));
             continue;
         }
         const double had = kineticEnergy(s), spun = s.spin;

@@ -105,7 +105,7 @@ private:
     }
     bool outer(Index part, int side) const
     {
-        return !parts_[part].outlined || (outlines_[std::as_const(outlineOf_)[part]].inner >> side & 1) == 0;
+        return !parts_[part].outlined || (outlines_[outlineOf_[part]].inner >> side & 1) == 0;
     }
     bool flush(const std::vector<Index>& places, int side) const
     {
@@ -131,14 +131,14 @@ private:
         if (known != edited_.end()) return outlines_[known->second];
         PartOutline outline;
         if (part.outlined) {
-            outline = outlines_[std::as_const(outlineOf_)[index]];
+            outline = outlines_[outlineOf_[index]];
         } else {
             for (int i = 0; i < part.count; ++i)
                 outline.before[i] = part.normals[(i + part.count - 1) % part.count], outline.after[i] = part.normals[i];
         }
         part.outlined = true;
         outlineOf_.cover(index + std::size_t{1});
-        outlineOf_[index] = edited_[index] = static_cast<std::uint32_t>(outlines_.size());
+        outlineOf_.edit(index) = edited_[index] = static_cast<std::uint32_t>(outlines_.size());
         outlines_.push_back(outline);
         return outlines_.back();
     }
@@ -179,14 +179,14 @@ void Weld::add(const PartOutline* outline)
     ++parts_;
     if (outline == nullptr) return;
     ownOf_.cover(parts_);
-    ownOf_[parts_ - 1] = static_cast<std::uint32_t>(own_.size());
+    ownOf_.edit(parts_ - 1) = static_cast<std::uint32_t>(own_.size());
     own_.push_back(*outline);
 }
 
 bool Weld::replace(std::size_t part, const PartOutline* outline)
 {
-    const std::uint32_t before = std::as_const(ownOf_)[part];
-    if (before != kNoOutline && outline == nullptr) free_.push_back(before), ownOf_[part] = kNoOutline;
+    const std::uint32_t before = ownOf_[part];
+    if (before != kNoOutline && outline == nullptr) free_.push_back(before), ownOf_.edit(part) = kNoOutline;
     if (outline == nullptr) return before != kNoOutline;
     std::uint32_t row = before;
     if (row == kNoOutline && free_.empty()) {
@@ -198,7 +198,7 @@ bool Weld::replace(std::size_t part, const PartOutline* outline)
     }
     own_[row] = *outline;
     ownOf_.cover(part + 1);
-    ownOf_[part] = row;
+    ownOf_.edit(part) = row;
     return true;
 }
 
@@ -206,7 +206,7 @@ void Weld::run(std::vector<Part>& parts, const std::vector<RigidBody>& bodies, c
                const State& state, float typicalLength)
 {
     outlines_ = own_, outlineOf_ = ownOf_;
-    for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outlined = std::as_const(ownOf_)[p] != kNoOutline;
+    for (std::size_t p = 0; p < parts.size(); ++p) parts[p].outlined = ownOf_[p] != kNoOutline;
     using Kind = decltype(kindOf(rules[0]));
     std::map<Kind, std::vector<Index>> kinds;
     for (Index i = 1; i < bodies.size(); ++i)

@@ -280,7 +280,7 @@ double Accounts::take(const Scene& scene, const Net& net, double excess, double 
     eachNode(scene.state, net, [&](Index n, double, double inertia, const BodyRecord&) {
         const Vec2 carried = whole.velocity + whole.omega * perpendicular(nodes.position[n] - whole.centre);
         nodes.velocity[n] = carried + kept * (nodes.velocity[n] - carried);
-        if (inertia > 0) nodes.omega[n] = whole.omega + kept * (nodes.omega[n] - whole.omega);
+        if (inertia > 0) nodes.omega.edit(n) = whole.omega + kept * (nodes.omega[n] - whole.omega);
     });
     return std::min(within, excess);
 }

@@ -188,7 +188,7 @@ void Joints::give(State& state, const Hold& hold, const Pose& before, const Body
     for (const Index n : hold.nodes) {
         state.nodes.velocity[n] += change;
         if (hold.rigid) {
-            state.nodes.omega[n] += turn;
+            state.nodes.omega.edit(n) += turn;
         } else {
             state.nodes.velocity[n] += turn * perpendicular(state.nodes.position[n] - before.centre);
         }
