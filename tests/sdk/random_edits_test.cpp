@@ -1,6 +1,8 @@
 // A million random operations over every kind of change, item and effect, in transactions that are committed, merged,
 // nested, restarted, rolled back or left by an exception, undone and redone at random. The model is the log of the
 // scene's hashes: whatever path led to a state, its hash must be the one it had when it was made.
+//
+// JET_TEST_SEED=N in the environment takes another sequence.
 #include "geometry_samples.hpp"
 #include "scene_fakes.hpp"
 
@@ -9,6 +11,7 @@
 #include <jet/symbols.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <deque>
 
 namespace jet {
@@ -344,7 +347,13 @@ protected:
         }
     }
 
-    test::Random random_{20261125};
+    static std::uint64_t seed()
+    {
+        const char* wanted = std::getenv("JET_TEST_SEED");
+        return wanted ? std::strtoull(wanted, nullptr, 10) : 20261125;
+    }
+
+    test::Random random_{seed()};
     std::vector<std::string_view> types_;
     std::vector<const Item*> everything_;
     std::deque<std::uint64_t> log_{scene.hash()};  // by place in the history
