@@ -73,7 +73,9 @@ JointHandle Stage::add(const JointDef& def)
     joint.restAngle = static_cast<double>(joint.joint->GetBodyB()->GetAngle() - joint.joint->GetBodyA()->GetAngle());
     configure(joint);
     const JointHandle handle = put(joints_, joint);
-    ++changes_;
+    // What pulls a body to a place comes and goes: states of before and after are those of the same world.
+    const bool pull = def.kind == Kind::Mouse && (def.a.body == kNoHandle) != (def.b.body == kNoHandle);
+    changes_ += !pull;
     if (!def.collide && def.a.body != kNoHandle && def.b.body != kNoHandle &&
         book_.joined.insert(std::minmax(def.a.body, def.b.body)).second) {
         refilter(bodies_[def.a.body]);

@@ -118,7 +118,7 @@ inline std::uint64_t hashOf(std::span<const std::byte> bytes)
 }
 
 // A saved state: a mark, what the world is made of, what is dynamic, and the seal, a hash of that.
-inline constexpr std::uint64_t kStateMark = 0x314554415453544aULL;  // "JTSSTAT1"; others at the end: other versions
+inline constexpr std::uint64_t kStateMark = 0x324554415453544aULL;  // "JTSSTAT2"; others at the end: other versions
 inline constexpr std::size_t kStateHead = sizeof kStateMark + sizeof(Structure::Tag), kStateSeal = 8;
 
 inline std::span<const std::byte> dynamicPart(std::span<const std::byte> state)

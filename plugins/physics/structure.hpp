@@ -1,5 +1,5 @@
 // What a world is made of, as one number and a few counts: only the state of a world that is made of the same can be
-// restored into it. Whatever can change while a world runs does not count.
+// restored into it. Whatever can change while a world runs does not count, and pulls (pulls.hpp) come and go.
 #pragma once
 
 #include <jet/physics.hpp>
@@ -42,10 +42,11 @@ public:
         for (const AngularSpringDef& spring : def.angularSprings)
             take(spring.a, spring.b), take(spring.centre, 5U), takeNumber(spring.restAngle);
     }
-    void add(const JointDef& def)
+    /// One that is no pull. Between pulls it may have another handle, or another place among its like.
+    void add(const JointDef& def, std::uint32_t handle, std::uint32_t place)
     {
         ++tag_.joints;
-        take(6U, static_cast<std::uint32_t>(def.kind));
+        take(6U, static_cast<std::uint32_t>(def.kind)), take(handle, place);
         takeAnchors({&def.a, &def.b});
     }
     void add(const SpringActuatorDef& def) { addActuator(7U, {&def.a, &def.b}); }

@@ -121,7 +121,7 @@ private:
     void removeHolders(BodyHandle);
     void forgetContacts(BodyHandle);
     void wakeHeld(ActuatorKind, ActuatorHandle);
-    JointHandle freeJoint(bool soft) const;
+    JointHandle freeJoint(bool soft, bool pull) const;
     void applyMotion(BodyHandle);
     static bool isHeld(const BodyRecord&);
     void holdSoft(BodyRecord&, bool before);
@@ -132,7 +132,7 @@ private:
 
     /// Where a joint is kept: with the rigid bodies, or, when it holds a soft one, with those.
     struct JointAt {
-        bool soft = false;
+        bool soft = false, pull = false;
         Index index = 0;
     };
     JointAt jointAt(JointHandle) const;
@@ -194,6 +194,10 @@ private:
     static void archive(Self& self, Archive& with);
     template <class Self, class Archive>
     static void archiveSlumber(Self& self, Archive& with);
+    template <class Self, class Archive>
+    static void archivePulls(Self& self, Archive& with);
+    bool anyPull() const;
+    void requirePulls() const;
 
     WorldSettings settings_;
     State state_;

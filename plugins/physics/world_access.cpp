@@ -195,19 +195,57 @@ void World::archive(Self& self, Archive& with)
     self.tears_.archive(with, self.state_);
     self.reports_.archive(with);
     archiveSlumber(self, with);
+    archivePulls(self, with);
 }
 
-/// Last, and only where there is something to tell.
+/// Only where there is something to tell, or something follows.
 template <class Self, class Archive>
 void World::archiveSlumber(Self& self, Archive& with)
 {
     if constexpr (std::is_same_v<Archive, RestoreArchive>) {
         if (with.finished()) return self.slumber_.makeFresh(self.state_);
-    } else if (self.slumber_.isFresh(self.state_)) {
+    } else if (self.slumber_.isFresh(self.state_) && !self.anyPull()) {
         return;
     }
     self.slumber_.archive(with, self.state_);
     for (ContactPoint& c : self.contacts_.points) with(c.inside);  // where nothing is sought, as all rests
+}
+
+bool World::anyPull() const
+{
+    return std::any_of(jointsAt_.begin(), jointsAt_.end(), [](const JointAt& at) { return at.pull; });
+}
+
+/// Each is one of its stage's.
+void World::requirePulls() const
+{
+    for (const JointAt& at : jointsAt_) {
+        if (!at.pull) continue;
+        const Index count = at.soft ? softJoints_.count() : rigid_.jointCount();
+        if (at.index >= count || !isPull(at.soft ? softJoints_.def(at.index) : rigid_.joint(at.index).def))
+            RestoreArchive::fail();
+    }
+}
+
+/// Last, and only where there are any.
+template <class Self, class Archive>
+void World::archivePulls(Self& self, Archive& with)
+{
+    const auto isPull = [](const JointAt& at) { return at.pull; };
+    if constexpr (std::is_same_v<Archive, RestoreArchive>) {
+        if (with.finished()) {
+            self.rigid_.dropPulls(), self.softJoints_.dropPulls();
+            return dropPulls(self.jointsAt_, isPull);
+        }
+    } else if (!self.anyPull()) {
+        return;
+    }
+    self.rigid_.archivePulls(with), self.softJoints_.archivePulls(with, self.state_);
+    physics::archivePulls(with, self.jointsAt_, isPull, [&](JointAt& at) {
+        at.pull = true;
+        with(at.soft), with(at.index);
+    });
+    self.requirePulls();
 }
 
 namespace {

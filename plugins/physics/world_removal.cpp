@@ -83,9 +83,9 @@ bool World::isRemoved(const JointAt& at) const
 bool World::hasJoint(JointHandle joint) const { return joint < jointsAt_.size() && !isRemoved(jointsAt_[joint]); }
 
 /// A removed one that is kept where the new one will be, else the next.
-JointHandle World::freeJoint(bool soft) const
+JointHandle World::freeJoint(bool soft, bool pull) const
 {
-    const auto isFree = [&](const JointAt& at) { return at.soft == soft && isRemoved(at); };
+    const auto isFree = [&](const JointAt& at) { return at.soft == soft && at.pull == pull && isRemoved(at); };
     const auto found = jointsRemoved_ ? std::find_if(jointsAt_.begin(), jointsAt_.end(), isFree) : jointsAt_.end();
     return static_cast<JointHandle>(found - jointsAt_.begin());
 }

@@ -96,13 +96,14 @@ JointHandle World::addJoint(const JointDef& def)
             checks().fail("joint " + std::to_string(next) + ": body " + std::to_string(anchor->body) +
                           " has no simple rigid shape; joints hold those, soft bodies and the background. Give it "
                           "shapes, or use a spring between bodies.");
-    const JointHandle handle = freeJoint(soft);
+    const bool pull = isPull(def);
+    const JointHandle handle = freeJoint(soft, pull);
     const Index place = handle == next ? kNone : jointsAt_[handle].index;
     const Index index = soft ? softJoints_.add(state_, def, place) : rigid_.addJoint(state_, def, place);
-    if (handle == next) jointsAt_.push_back({soft, index});
+    if (handle == next) jointsAt_.push_back({soft, pull, index});
     wakeHeld(def);
     if (soft) finder_.exclude(softJoints_.excluded());
-    structure_.add(def);
+    if (!pull) structure_.add(def, handle, index);
     return handle;
 }
 

@@ -6,6 +6,7 @@
 #include "collider.hpp"
 #include "drawn.hpp"
 #include "nets.hpp"
+#include "pulls.hpp"
 #include "solver.hpp"
 #include "touches.hpp"
 
@@ -141,15 +142,26 @@ public:
         } else {
             tellJoints();
         }
-        for (Joint& joint : joints_) {
-            with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.substep);
-            with(joint.state.force), with(joint.state.torque);
-            with(joint.localA), with(joint.localB), with(joint.localAxis), with(joint.length);
-            JointDef& def = joint.def;
-            with(def.limited), with(def.lower), with(def.upper), with(def.driven), with(def.motorSpeed);
-            with(def.motorVelocity), with(def.maxForce), with(def.maxTorque), with(def.hertz);
-            with(def.dampingRatio), with(def.ratio), with(def.breakForce), with(def.axis), with(def.collide);
-        }
+        for (Joint& joint : joints_)
+            if (!isPull(joint.def)) archive(with, joint);
+    }
+    template <class Archive>
+    void archivePulls(Archive& with)
+    {
+        physics::archivePulls(
+            with, joints_, [](const Joint& joint) { return isPull(joint.def); },
+            [&](Joint& joint) {
+                archivePull(with, joint.def);
+                with(joint.a), with(joint.b), with(joint.restAngle);
+                archive(with, joint);
+                const std::size_t bodies = collider_.bodies().size();
+                if (!isPull(joint.def) || joint.a >= bodies || joint.b >= bodies || (joint.a == 0) == (joint.b == 0))
+                    RestoreArchive::fail();
+            });
+    }
+    void dropPulls()
+    {
+        physics::dropPulls(joints_, [](const Joint& joint) { return isPull(joint.def); });
     }
     void rebuild()
     {
@@ -165,6 +177,17 @@ public:
     }
 
 private:
+    template <class Archive>
+    static void archive(Archive& with, Joint& joint)
+    {
+        with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.substep);
+        with(joint.state.force), with(joint.state.torque);
+        with(joint.localA), with(joint.localB), with(joint.localAxis), with(joint.length);
+        JointDef& def = joint.def;
+        with(def.limited), with(def.lower), with(def.upper), with(def.driven), with(def.motorSpeed);
+        with(def.motorVelocity), with(def.maxForce), with(def.maxTorque), with(def.hertz);
+        with(def.dampingRatio), with(def.ratio), with(def.breakForce), with(def.axis), with(def.collide);
+    }
     /// 0: it is not here.
     Index bodyOf(Index handle) const
     {

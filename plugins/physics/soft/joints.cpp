@@ -5,6 +5,7 @@
 #include <jet/result.hpp>
 
 #include <numeric>
+#include <tuple>
 
 namespace jet::physics::soft {
 
@@ -127,6 +128,24 @@ Index Joints::add(const State& state, const JointDef& def, Index place)
     }
     joints_.push_back(std::move(held));
     return static_cast<Index>(joints_.size() - 1);
+}
+
+/// Is a pull that was read back one of the state's?
+bool Joints::fits(const State& state, const Held& held)
+{
+    if (held.a.background() == held.b.background()) return false;
+    for (const auto& [end, anchor, number] :
+         {std::tuple(&held.a, &held.joint.def.a, held.joint.a), std::tuple(&held.b, &held.joint.def.b, held.joint.b)}) {
+        const Index wanted = end == &held.a ? 1 : 2;
+        if (end->background() != (anchor->body == kNoHandle) || number != (end->background() ? 0 : wanted))
+            return false;
+        if (end->background()) continue;
+        if (anchor->body >= state.bodies.size() || end->rest.size() != (end->rigid ? 0 : end->nodes.size()))
+            return false;
+        if (std::any_of(end->nodes.begin(), end->nodes.end(), [&](Index n) { return n >= state.nodes.size(); }))
+            return false;
+    }
+    return true;
 }
 
 Joints::Pose Joints::poseOf(const State& state, const Hold& hold, double moved)

@@ -7,6 +7,7 @@
 // same rows as a rigid body (rigid/joint.hpp). A single particle cannot turn: what needs a direction is refused.
 #pragma once
 
+#include "pulls.hpp"
 #include "rigid/joint.hpp"
 
 #include <algorithm>
@@ -110,18 +111,25 @@ public:
     template <class Archive>
     void archive(Archive& with)
     {
-        for (Held& held : joints_) {
-            Joint& joint = held.joint;
-            with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length), with(joint.localAxis);
-            with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local), with(held.springMass);
-            with(held.a.lag), with(held.b.lag);
-            with(held.settling);
-            JointDef& def = joint.def;
-            with(def.driven), with(def.motorSpeed), with(def.motorVelocity), with(def.limited), with(def.lower);
-            with(def.upper), with(def.maxForce), with(def.maxTorque), with(def.hertz), with(def.dampingRatio);
-            with(def.ratio), with(def.breakForce), with(def.axis), with(def.collide);
-            with(joint.state.force), with(joint.state.torque);
-        }
+        for (Held& held : joints_)
+            if (!isPull(held.joint.def)) archive(with, held);
+    }
+    template <class Archive>
+    void archivePulls(Archive& with, const State& state)
+    {
+        physics::archivePulls(
+            with, joints_, [](const Held& held) { return isPull(held.joint.def); },
+            [&](Held& held) {
+                archivePull(with, held.joint.def);
+                with(held.joint.a), with(held.joint.b), with(held.joint.restAngle);
+                archivePatch(with, held.a), archivePatch(with, held.b);
+                archive(with, held);
+                if (!isPull(held.joint.def) || !fits(state, held)) RestoreArchive::fail();
+            });
+    }
+    void dropPulls()
+    {
+        physics::dropPulls(joints_, [](const Held& held) { return isPull(held.joint.def); });
     }
 
 private:
@@ -156,6 +164,28 @@ private:
         double work = 0, stored = 0;  // of this substep: done on the ends; in springs at its start
     };
 
+    template <class Archive>
+    static void archive(Archive& with, Held& held)
+    {
+        Joint& joint = held.joint;
+        with(joint.removed), with(joint.broken), with(joint.impulse), with(joint.length), with(joint.localAxis);
+        with(held.a.angle), with(held.b.angle), with(held.a.local), with(held.b.local), with(held.springMass);
+        with(held.a.lag), with(held.b.lag);
+        with(held.settling);
+        JointDef& def = joint.def;
+        with(def.driven), with(def.motorSpeed), with(def.motorVelocity), with(def.limited), with(def.lower);
+        with(def.upper), with(def.maxForce), with(def.maxTorque), with(def.hertz), with(def.dampingRatio);
+        with(def.ratio), with(def.breakForce), with(def.axis), with(def.collide);
+        with(joint.state.force), with(joint.state.torque);
+    }
+    template <class Archive>
+    static void archivePatch(Archive& with, Hold& hold)
+    {
+        with(hold.rigid), with(hold.gyration);
+        with.list(hold.nodes, [&](Index& node) { with(node); });
+        with.list(hold.rest, [&](Vec2& place) { with(place); });
+    }
+    static bool fits(const State&, const Held&);
     static Hold hold(const State&, const Anchor&);
     static void requireDirection(const JointDef&, const Hold& a, const Hold& b);
     /// moved: seconds by which particles moved since the hold's angle was known.

@@ -19,7 +19,8 @@
 //
 // Snapshots and hashes. What was added and removed, in which order, is part of what a world is made of: a state saved
 // before it is refused after it, as of a world made otherwise; states saved since are restored bit-equal. Equal
-// histories of adding, removing and steps give equal hashes.
+// histories of adding, removing and steps give equal hashes. Mouse joints between a body and the background are the
+// exception: they come and go as a hand drags bodies, and belong to the state that is saved, with all that they are.
 //
 // Threads: as PhysicsWorld, by the thread that has the world.
 #pragma once
