@@ -234,6 +234,14 @@ void Simulation::pointer(ScriptEventKind kind, const PointerEvent& event)
     if (d_->scripts) d_->scripts->dispatch(ScriptEvent{kind, {}, event, {}, {}, {}});
 }
 
+bool Simulation::listensToPointer() const
+{
+    using Kind = ScriptEventKind;
+    const auto heard = {Kind::PointerDown, Kind::PointerMove, Kind::PointerUp};
+    return d_->scripts &&
+           std::any_of(heard.begin(), heard.end(), [this](Kind kind) { return d_->scripts->listensTo(kind); });
+}
+
 GameView& Simulation::view() { return d_->view; }
 const GameView& Simulation::view() const { return d_->view; }
 

@@ -1,5 +1,6 @@
 // Plays on a thread of its own. Commands go in through a queue; immutable frames come out behind a mutex held for a
 // pointer swap only. The catalog and the edited scene are used on the owner's thread alone.
+#include "hand_deeds.hpp"
 #include "known_effect.hpp"
 #include "property_place.hpp"
 #include "scene_state.hpp"
@@ -50,6 +51,12 @@ struct SimulationCenter::Private {
     RewindLimits limits, runLimits;  // of the next run; of this one
     PhysicsMarks marks;
 
+    // As of the latest frame.
+    std::optional<HeldBody> held;
+    bool listensToPointer = false;
+
+    HandDeeds hand;  // of the simulation's thread
+
     template <class Task>
     void onOwner(Task task)
     {
@@ -78,6 +85,8 @@ struct SimulationCenter::Private {
             picture->stepMs = stepMs;
             next->physics = std::move(picture);
         }
+        const std::optional<HeldBody> holds = simulation.held();
+        const bool listens = simulation.listensToPointer();
         simulation.scene().root().walk([&](const Item& item) {
             if (const Path* pose = simulation.pose(item)) next->poses.emplace_back(item.id(), *pose);
             if (const LiveBody* body = simulation.liveBody(item)) next->bodies.emplace_back(item.id(), *body);
@@ -89,6 +98,7 @@ struct SimulationCenter::Private {
         {
             const std::lock_guard lock(mutex);
             frame = std::move(next);
+            held = holds, listensToPointer = listens;
         }
         if (!framePending.exchange(true))
             onOwner([this] {
@@ -120,6 +130,7 @@ struct SimulationCenter::Private {
         } catch (const Failure&) {  // an engine that cannot save can still play
             history.clear();
         }
+        if (const RewindState kept = history.state(); kept.any) hand.forgetBefore(kept.oldest);
         tellRewind(simulation, history);
     }
 
@@ -131,7 +142,8 @@ struct SimulationCenter::Private {
         rewind = state;
     }
 
-    /// Where not every step is kept, the physics is computed on from the one before; scripts are left out of that.
+    /// Where not every step is kept, the physics is computed on from the one before, with what the hand did; scripts
+    /// are left out of that.
     void goBack(Simulation& simulation, const RewindHistory& history, std::uint64_t step)
     {
         const auto state = history.find(step);
@@ -143,7 +155,11 @@ struct SimulationCenter::Private {
                 {OutputLine::Kind::Warning, std::string("one cannot go back there: ") + failure.what(), {}, 0});
         }
         const std::uint64_t last = std::min(step, history.state().newest);
-        while (!simulation.hasScripts() && simulation.stepCount() < last) simulation.stepPhysics();
+        while (!simulation.hasScripts() && simulation.stepCount() < last) {
+            hand.again(simulation);
+            simulation.stepPhysics();
+        }
+        hand.wentBack();
         tellRewind(simulation, history);
         publish(simulation, 0);
     }
@@ -153,6 +169,7 @@ struct SimulationCenter::Private {
         const auto dt = std::chrono::duration<double>(simulation.timeStep());
         auto next = Clock::now();
         RewindHistory history(runLimits, simulation.timeStep());
+        hand = {};
         remember(simulation, history);
         publish(simulation, 0);
         for (;;) {
@@ -184,7 +201,11 @@ struct SimulationCenter::Private {
                     next = now;
                 }
             }
-            if (!stepNow) continue;
+            if (!stepNow) {
+                if (hand.moved()) publish(simulation, 0);
+                continue;
+            }
+            hand.goOn(simulation);
             const auto before = Clock::now();
             simulation.step();
             const double took = std::chrono::duration<double, std::milli>(Clock::now() - before).count();
@@ -212,6 +233,7 @@ struct SimulationCenter::Private {
         singleSteps = 0;
         rewindTarget.reset();
         rewind = {};
+        held.reset(), listensToPointer = false;
         framePending = false;
     }
 
@@ -246,6 +268,7 @@ struct SimulationCenter::Private {
         if (!simulation) return simulation.error();
         scene = &playing;
         runLimits = limits;
+        listensToPointer = (*simulation)->listensToPointer();
         display = playing.clone(events);
         for (const OutputLine& line : (*simulation)->output()) events.post(&self, OutputPrinted{line});
         (*simulation)->setOutputHandler([this](const OutputLine& line) {
@@ -372,6 +395,35 @@ void SimulationCenter::key(const KeyEvent& event, bool down)
 void SimulationCenter::pointer(ScriptEventKind kind, const PointerEvent& event)
 {
     d_->send([kind, event](Simulation& simulation) { simulation.pointer(kind, event); });
+}
+
+void SimulationCenter::grab(const Vec2& point, double reach)
+{
+    d_->send([this, point, reach](Simulation& simulation) {
+        d_->hand.act(simulation, {HandDeed::Kind::Grab, point, reach});
+    });
+}
+
+void SimulationCenter::drag(const Vec2& to)
+{
+    d_->send([this, to](Simulation& simulation) { d_->hand.act(simulation, {HandDeed::Kind::Drag, to}); });
+}
+
+void SimulationCenter::letGo()
+{
+    d_->send([this](Simulation& simulation) { d_->hand.act(simulation, {HandDeed::Kind::LetGo, {0, 0}}); });
+}
+
+std::optional<HeldBody> SimulationCenter::held() const
+{
+    const std::lock_guard lock(d_->mutex);
+    return d_->held;
+}
+
+bool SimulationCenter::listensToPointer() const
+{
+    const std::lock_guard lock(d_->mutex);
+    return d_->listensToPointer;
 }
 
 void SimulationCenter::setViewSize(const Vec2& pixels)

@@ -55,6 +55,7 @@ void Simulation::Private::changeBody(const Item& item, std::size_t effect, const
     const std::optional<BodyDef> after = definitionOf(item, effect);
     if (!before || !after) throw Failure(Error("no body comes of it any more"));
     changeDefinition(binding.body, *before, *after, *world);
+    binding.mass = massOf(*after);
     const auto* soft = std::get_if<SoftBodyDef>(&*after);
     if (!soft || !binding.live) return;
     for (std::size_t s = 0; s < binding.live->springs.size(); ++s)

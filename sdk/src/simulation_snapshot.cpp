@@ -2,6 +2,7 @@
 #include "hasher.hpp"
 #include "simulation_state.hpp"
 
+#include <jet/physics_removal.hpp>
 #include <jet/physics_view.hpp>
 
 #include <cstring>
@@ -15,6 +16,8 @@ struct Head {
     std::uint64_t seal = 0;  // of what follows, up to the world's state, which has one of its own
     std::uint64_t steps = 0, random = 0, printed = 0, torques = 0;
     double anchorX = 0, anchorY = 0, scale = 1;
+    std::uint64_t held = 0, joint = 0;  // item; 0: none
+    double handX = 0, handY = 0;
 };
 struct SavedTorque {
     std::uint64_t item = 0;
@@ -24,8 +27,9 @@ struct SavedTorque {
 std::uint64_t sealOf(const Head& head, const std::map<ItemId, double>& torques)
 {
     Hasher h;
-    for (const std::uint64_t word : {head.steps, head.random, head.printed, head.torques}) h.add(word);
-    for (const double number : {head.anchorX, head.anchorY, head.scale}) h.add(number);
+    for (const std::uint64_t word : {head.steps, head.random, head.printed, head.torques, head.held, head.joint})
+        h.add(word);
+    for (const double number : {head.anchorX, head.anchorY, head.scale, head.handX, head.handY}) h.add(number);
     for (const auto& [item, value] : torques) h.add(item.value), h.add(value);
     return h.value();
 }
@@ -58,7 +62,10 @@ std::vector<std::byte> Simulation::save() const
 {
     std::vector<std::byte> out;
     const View& view = d_->view.view;
-    Head head{0, d_->steps, d_->random, d_->printed, d_->torques.size(), view.anchor.x(), view.anchor.y(), view.scale};
+    const Hand hand = d_->hand.value_or(Hand{});
+    Head head{
+        0,          d_->steps,       d_->random, d_->printed,    d_->torques.size(), view.anchor.x(), view.anchor.y(),
+        view.scale, hand.item.value, hand.joint, hand.place.x(), hand.place.y()};
     head.seal = sealOf(head, d_->torques);
     put(out, head);
     for (const auto& [item, value] : d_->torques) put(out, SavedTorque{item.value, value});
@@ -82,6 +89,9 @@ void Simulation::restore(std::span<const std::byte> state)
     d_->steps = head.steps, d_->random = head.random, d_->printed = head.printed;
     d_->view.view.anchor = Vec2(head.anchorX, head.anchorY);
     d_->view.view.scale = head.scale;
+    d_->hand.reset();
+    if (head.held != 0)
+        d_->hand = Hand{{head.held}, static_cast<JointHandle>(head.joint), Vec2(head.handX, head.handY)};
     // What was worked out for this step belongs to another past.
     d_->eventsFollow = false;
     std::fill(d_->posedAt.begin(), d_->posedAt.end(), 0);
@@ -122,6 +132,16 @@ private:
     bool told_ = true;
 };
 
+/// A joint may have been removed: by a script, by a hand that let go.
+bool exists(const PhysicsWorld& world, JointHandle joint)
+{
+    try {
+        return removal(world).hasJoint(joint);
+    } catch (const Failure&) {  // nothing of it is removed by an engine that cannot tell
+        return true;
+    }
+}
+
 }  // namespace
 
 PhysicsPicture Simulation::physicsPicture() const
@@ -155,7 +175,8 @@ PhysicsPicture Simulation::physicsPicture() const
     }
     const auto contacts = world.contacts();
     picture.contacts.assign(contacts.begin(), contacts.end());
-    for (JointHandle joint = 0; joint < world.jointCount(); ++joint) picture.joints.push_back(world.joint(joint));
+    for (JointHandle joint = 0; joint < world.jointCount(); ++joint)
+        if (exists(world, joint)) picture.joints.push_back(world.joint(joint));
     picture.stats = world.stats();
     return picture;
 }

@@ -13,6 +13,13 @@
 
 namespace jet {
 
+/// What a hand holds, and by which joint.
+struct Hand {
+    ItemId item;
+    JointHandle joint = kNoHandle;
+    Vec2 place{0, 0};
+};
+
 struct Simulation::Private {
     EventsCenter events;  // the copy's own: nobody listens
     SimulationOptions options;
@@ -26,6 +33,8 @@ struct Simulation::Private {
     std::unique_ptr<ScriptRuntime> scripts;
     const ContactListening* contactListening = nullptr;       ///< of `scripts`; null: it hears nothing of them
     std::set<std::pair<BodyHandle, BodyHandle>> touchesTold;  ///< whose beginning scripts heard of, and no end
+    std::optional<Hand> hand;
+    bool handless = false;      ///< has it been told that the engine lets nothing be dragged?
     bool eventsFollow = false;  ///< do the engine's events of the next step go on from `touchesTold`?
 
     double timeStep = 1.0 / 60;
@@ -75,6 +84,12 @@ struct Simulation::Private {
             binding.live->springs[s].whole = world->springAlive(binding.body, s);
         binding.liveAt = steps + 1;
     }
+
+    // What a hand takes hold of; see simulation_hand.cpp.
+    bool mayDrag(const BodyBinding& binding) const;
+    const BodyBinding* bodyAt(const Vec2& point) const;
+    const BodyBinding* bodyNear(const Simulation& self, const Vec2& point, double reach, Vec2& at) const;
+    JointDef pullOn(const BodyBinding& binding, const Vec2& at, const Vec2& hand) const;
 
     // Properties that change while playing; see simulation_live.cpp.
     void keepTables(const Item& item);

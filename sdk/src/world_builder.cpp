@@ -4,6 +4,7 @@
 #include "scene_state.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 namespace jet {
@@ -107,6 +108,13 @@ std::string uselessness(const JointDef& def)
 
 }  // namespace
 
+double massOf(const BodyDef& def)
+{
+    if (const auto* rigid = std::get_if<RigidBodyDef>(&def)) return rigid->mass;
+    const std::vector<double>& masses = std::get<SoftBodyDef>(def).masses;
+    return std::accumulate(masses.begin(), masses.end(), 0.0);
+}
+
 void SceneWorldBuilder::addBody(const Item& item)
 {
     std::optional<BodyDef> def;
@@ -144,6 +152,7 @@ void SceneWorldBuilder::addBody(const Item& item)
 
     binding.item = item.id();
     binding.fixed = own.fixed;
+    binding.mass = massOf(*def);
     binding.restPath = item.path();
     try {
         if (const auto* soft = std::get_if<SoftBodyDef>(&*def)) {

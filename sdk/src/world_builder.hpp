@@ -20,6 +20,7 @@ struct BodyBinding {
     std::size_t effect = 0;  ///< which of the item's builds it
     bool soft = false;
     bool fixed = false;
+    double mass = 1;
     Vec2 restPosition;  ///< centre of mass when play started
     Skin skin;
     Path restPath;
@@ -65,6 +66,8 @@ WorldSettings worldSettings(const Scene& scene, int threads);
 
 /// What a body item's own properties say; `problem` is a sentence where they name a material the scene has not.
 BodyCommon commonOf(const Scene& scene, const Item& item, std::string& problem);
+
+double massOf(const BodyDef&);
 
 /// Changes a body that was built as `before` to what is built as `after`. Throws Failure with the reason, and changes
 /// nothing, where what it is made of would be another.

@@ -56,6 +56,13 @@ struct GameView {
     Vec2 size;  ///< pixels
 };
 
+/// A body that a hand holds, and the spring between them.
+struct HeldBody {
+    ItemId item;
+    Vec2 at;    ///< where it is held, scene coordinates
+    Vec2 hand;  ///< where it is drawn to
+};
+
 class JET_API Simulation final : public PoseSource {
 public:
     /// Copies the scene, builds all bodies and runs the scripts. Fails when there is no physics engine. A body that
@@ -94,6 +101,19 @@ public:
     void setKey(std::string_view key, bool down);
     bool isPressed(std::string_view key) const;
     void pointer(ScriptEventKind kind, const PointerEvent& event);
+    /// Do scripts listen to any event of the pointer now? Then what is dragged is theirs.
+    bool listensToPointer() const;
+
+    // A hand that drags bodies about, as a person's does while a game is tried out: grab -> drag ... -> letGo. It pulls
+    // by a spring of limited force, a joint of the world, and belongs to the state that is saved.
+    /// Takes hold of the topmost shown body that contains the point and may move, else of the nearest one no farther
+    /// than `reach` (scene units), and wakes it; what was held is let go first. Its item; none when nothing is there,
+    /// or when the engine has no joints, which is printed once.
+    ItemId grab(const Vec2& point, double reach = 0);
+    /// Where the hand is from now on; nothing where it holds nothing.
+    void drag(const Vec2& to);
+    void letGo();
+    std::optional<HeldBody> held() const;
 
     GameView& view();
     const GameView& view() const;
@@ -210,6 +230,16 @@ public:
     void key(const KeyEvent& event, bool down);
     void pointer(ScriptEventKind kind, const PointerEvent& event);
     void setViewSize(const Vec2& pixels);
+
+    // The hand of Simulation::grab(), queued as well. It may hold while the run is paused; what is gone back to is as
+    // it was, and is let go when the run goes on from there.
+    void grab(const Vec2& point, double reach);
+    void drag(const Vec2& to);
+    void letGo();
+    /// As of the latest frame. [owner's thread]
+    std::optional<HeldBody> held() const;
+    /// As of the latest frame: do scripts listen to the pointer? [owner's thread]
+    bool listensToPointer() const;
 
 private:
     struct Private;

@@ -65,6 +65,48 @@ TEST_P(EitherEngine, RunsTwiceTheSame)
     EXPECT_EQ(play(3)->hash(), play(3)->hash());
 }
 
+/// The spring of the hand bears the weight: m g = k x, k = m w² of 5 Hz.
+TEST_P(EitherEngine, AHandHoldsABodyThatHangsAsItsStiffnessSays)
+{
+    const Item& box = body(Path::rectangle({{-15, -15}, {15, 15}}), "in-path-rigid-body");
+    const auto simulation = play(0);
+    ASSERT_EQ(simulation->grab({0, 0}), box.id());
+    for (int i = 0; i < 240; ++i) simulation->step();
+    const double omega = 2 * 3.14159265358979 * 5;
+    EXPECT_NEAR(simulation->world().bodies().position[simulation->bodyOf(box.id())].y(), 98.1 / (omega * omega), 0.01);
+    simulation->letGo();
+    EXPECT_FALSE(simulation->held());
+}
+
+TEST_P(EitherEngine, OneGoesBackPastADragAndPlaysTheSameAgain)
+{
+    body(Path::rectangle({{-300, 200}, {300, 260}}), "in-path-rigid-body", true);
+    const Item& box = body(Path::rectangle({{-15, 160}, {15, 190}}), "in-path-rigid-body");
+    body(Path::rectangle({{60, 160}, {90, 190}}), "in-path-rigid-body");
+    const auto simulation = play(0);
+    std::vector<std::vector<std::byte>> states;
+    std::vector<std::uint64_t> hashes;
+    const auto goOn = [&](std::uint64_t from) {
+        for (std::uint64_t step = from; step < 90; ++step) {
+            if (step == states.size()) states.push_back(simulation->save()), hashes.push_back(simulation->hash());
+            ASSERT_EQ(simulation->hash(), hashes[step]) << "from " << from << ", step " << step;
+            if (step == 20) {
+                ASSERT_EQ(simulation->grab(simulation->world().bodies().position[simulation->bodyOf(box.id())]),
+                          box.id());
+            }
+            if (step > 20 && step < 60) simulation->drag({3.0 * static_cast<double>(step - 20), 120});
+            if (step == 60) simulation->letGo();
+            simulation->step();
+        }
+    };
+    goOn(0);
+    for (const std::uint64_t from : {70U, 40U, 10U, 60U, 20U, 21U, 0U}) {
+        simulation->restore(states[from]);
+        EXPECT_EQ(simulation->held().has_value(), from > 20 && from <= 60);
+        goOn(from);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Engines, EitherEngine, testing::Values("jet-physics", "physics-box2d"));
 
 TEST_F(OneEngine, WithBox2dASoftBodyStaysAsDrawnAndTheOutputSaysWhy)

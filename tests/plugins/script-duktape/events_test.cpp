@@ -96,6 +96,22 @@ TEST_F(ScriptEventsTest, PointerEventsTellWhereAndWithWhichButton)
                      "onPointerUp 1 2 (1, 2) (10, 20) right true"}));
 }
 
+TEST_F(ScriptEventsTest, WhoDragsIsToldWhetherAnyoneListensToThePointer)
+{
+    for (const char* type : {"onPointerDown", "onPointerMove", "onPointerUp"}) {
+        script("Script", std::string("function hear() {} JetSystem.addEventListener('onStep', function (e) {"
+                                     "    if (e.step === 1) JetSystem.addEventListener('") +
+                             type + "', hear); if (e.step === 2) JetSystem.removeEventListener('" + type +
+                             "', hear); });");
+        play();
+        EXPECT_FALSE(simulation().listensToPointer()) << type;
+        bool heard = false;
+        for (int i = 0; i < 4; ++i) step(), heard |= simulation().listensToPointer();
+        EXPECT_TRUE(heard) << type;
+        EXPECT_FALSE(simulation().listensToPointer()) << type;
+    }
+}
+
 TEST_F(ScriptEventsTest, CollisionEventsNameBothItemsAndTheContact)
 {
     body("A", Box({0, 0}, {10, 10}));
