@@ -18,6 +18,18 @@ namespace {
 
 const QColor kPlaying(76, 175, 80), kPaused(242, 140, 30);
 constexpr int kFramePixels = 3;
+constexpr double kReachPixels = 8;       // so far from a body it is still taken hold of
+constexpr Color kBand{0, 120, 90, 255};  // as marks of joints
+
+void paintHand(const HeldBody& held, Painter& painter)
+{
+    const double pixel = 1 / painter.pixelsPerUnit();
+    Pen pen;
+    pen.color = kBand, pen.width = 2, pen.cosmetic = true, pen.cap = LineCap::Round;
+    painter.stroke(Path::line(held.at, held.hand), pen);
+    for (const auto& [at, pixels] : {std::pair(held.at, 4.0), std::pair(held.hand, 3.0)})
+        painter.fill(Path::ellipse(Box(at, at).inflated(pixels * pixel)), kBand);
+}
 
 /// The poses of one frame.
 class FramePoses final : public PoseSource {
@@ -51,7 +63,7 @@ PlayView::PlayView(SimulationCenter& simulation, EventsCenter& events, const Vie
     setCursor(Qt::ArrowCursor);
     parent->installEventFilter(this);  // to stay as large as the view below
     setGeometry(parent->rect());
-    frames_ = events.subscribe<SimulationFrameReady>(nullptr, [this](const SimulationFrameReady&) { update(); });
+    frames_ = events.subscribe<SimulationFrameReady>(nullptr, [this](const SimulationFrameReady&) { followFrame(); });
     states_ = events.subscribe<SimulationStateChanged>(nullptr, [this](const SimulationStateChanged&) { update(); });
     marks_ = events.subscribe<PhysicsMarksChanged>(nullptr, [this](const PhysicsMarksChanged&) { update(); });
 }
@@ -74,6 +86,18 @@ View PlayView::shownView(const SimulationFrame& frame) const
     const View& game = frame.view.view;
     const bool untouched = game.anchor == Vec2(0, 0) && game.scale == 1;
     return untouched ? editView_ : game;
+}
+
+View PlayView::shownView() const
+{
+    const std::shared_ptr<const SimulationFrame> frame = simulation_.frame();
+    return frame ? shownView(*frame) : editView_;
+}
+
+void PlayView::followFrame()
+{
+    setCursor(dragging_ && simulation_.held() ? Qt::ClosedHandCursor : Qt::ArrowCursor);
+    update();
 }
 
 void PlayView::paintEvent(QPaintEvent*)
@@ -101,6 +125,7 @@ void PlayView::paintGame(QPainter& painter, const SimulationFrame& frame)
     target.transform(view.toPixels());
     paintScene(scene, &poses, PaintPurpose::Play, Box(view.anchor, view.anchor + size / view.scale), target);
     if (frame.physics) paintPhysics(*frame.physics, simulation_.physicsMarks(), target);
+    if (const std::optional<HeldBody> held = simulation_.held()) paintHand(*held, target);
     target.restore();
 }
 
@@ -150,20 +175,56 @@ void PlayView::focusOutEvent(QFocusEvent* event)
         simulation_.key(keyEventOf(QKeyEvent(QEvent::KeyRelease, key, Qt::NoModifier)), false);
     }
     held_.clear();
+    letGo();
     QWidget::focusOutEvent(event);
 }
 
 void PlayView::sendPointer(ScriptEventKind kind, const QMouseEvent& event)
 {
-    const std::shared_ptr<const SimulationFrame> frame = simulation_.frame();
-    const View view = frame ? shownView(*frame) : editView_;
+    const View view = shownView();
     const Vec2 pixels(event.position().x(), event.position().y());
     simulation_.pointer(
         kind, {view.anchor + pixels / view.scale, pixels, buttonOf(event.button()), modifiersOf(event.modifiers())});
 }
 
-void PlayView::mousePressEvent(QMouseEvent* event) { sendPointer(ScriptEventKind::PointerDown, *event); }
-void PlayView::mouseMoveEvent(QMouseEvent* event) { sendPointer(ScriptEventKind::PointerMove, *event); }
-void PlayView::mouseReleaseEvent(QMouseEvent* event) { sendPointer(ScriptEventKind::PointerUp, *event); }
+bool PlayView::beginsDrag(const QMouseEvent& event) const
+{
+    if (event.button() != Qt::LeftButton) return false;
+    return event.modifiers().testFlag(Qt::ControlModifier) || !simulation_.listensToPointer();
+}
+
+void PlayView::mousePressEvent(QMouseEvent* event)
+{
+    if (dragging_) return;  // other buttons in the midst of a drag
+    if (!beginsDrag(*event)) return sendPointer(ScriptEventKind::PointerDown, *event);
+    dragging_ = true;
+    const View view = shownView();
+    simulation_.grab(view.anchor + Vec2(event->position().x(), event->position().y()) / view.scale,
+                     kReachPixels / view.scale);
+}
+
+void PlayView::mouseMoveEvent(QMouseEvent* event)
+{
+    if (!dragging_) return sendPointer(ScriptEventKind::PointerMove, *event);
+    if (!event->buttons().testFlag(Qt::LeftButton)) return letGo();  // its release went elsewhere
+    // Beyond the border nobody would see it again.
+    const View view = shownView();
+    const Vec2 pixels(std::clamp<double>(event->position().x(), 0, width()),
+                      std::clamp<double>(event->position().y(), 0, height()));
+    simulation_.drag(view.anchor + pixels / view.scale);
+}
+
+void PlayView::mouseReleaseEvent(QMouseEvent* event)
+{
+    if (!dragging_) return sendPointer(ScriptEventKind::PointerUp, *event);
+    if (event->button() == Qt::LeftButton) letGo();
+}
+
+void PlayView::letGo()
+{
+    if (!std::exchange(dragging_, false)) return;
+    simulation_.letGo();
+    setCursor(Qt::ArrowCursor);
+}
 
 }  // namespace jet::host

@@ -1,5 +1,8 @@
 // PlayView: a running game, laid over the scene view it was started from. Keys and pointer go to the game; when it is
 // taken away, the edited scene is seen as it was left, at the same zoom.
+//
+// Bodies are dragged with the left button: where the game listens to the pointer, with Ctrl, as the rest is the game's.
+// Of such a drag the game hears nothing.
 #pragma once
 
 #include <jet/simulation.hpp>
@@ -30,13 +33,18 @@ protected:
 
 private:
     View shownView(const SimulationFrame& frame) const;
+    View shownView() const;
     void sendPointer(ScriptEventKind kind, const QMouseEvent& event);
+    bool beginsDrag(const QMouseEvent& event) const;
+    void letGo();
+    void followFrame();
     void paintGame(QPainter& painter, const SimulationFrame& frame);
     void paintFrame(QPainter& painter);
 
     SimulationCenter& simulation_;
     View editView_;
-    QSet<int> held_;  // keys that are down, to be let go when the focus leaves
+    QSet<int> held_;         // keys that are down, to be let go when the focus leaves
+    bool dragging_ = false;  // is the left button down for a drag of the editor's?
     Subscription frames_, states_, marks_;
 };
 

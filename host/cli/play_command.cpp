@@ -60,7 +60,8 @@ public:
         if (const auto begun = begin(scene); !begun) return begun;
         const auto before = std::chrono::steady_clock::now();
         for (std::uint64_t step = 0; step < options_.steps; ++step) {
-            input_.apply(*simulation_, step);
+            input_.apply(*simulation_, step,
+                         [this](const std::string& what, const Location& where) { session_.warning(what, where); });
             simulation_->step();
             if (auto problem = session_.problem()) return *problem;
             if (step % 60 == 59) hashes_.push_back({{"step", step + 1}, {"hash", hashText(simulation_->hash())}});
@@ -220,8 +221,7 @@ private:
     {
         using Json = nlohmann::ordered_json;
         Json events = Json::array();
-        for (const RecordedEvent& e : input_.events())
-            events.push_back({{"step", e.step}, {"key", e.key}, {"down", e.down}});
+        for (const RecordedEvent& event : input_.events()) events.push_back(Json::parse(RecordedInput::text(event)));
         return Json{{"steps", simulation_->stepCount()},
                     {"timeStep", simulation_->timeStep()},
                     {"seed", options_.seed},

@@ -13,6 +13,8 @@ PlayController::PlayController(Editor& editor, Documents& documents, QObject* pa
     states_ = editor.events().subscribe<SimulationStateChanged>(nullptr, [this](const SimulationStateChanged& event) {
         if (event.state == State::Stopped) hideGame();
     });
+    frames_ = editor.events().subscribe<SimulationFrameReady>(
+        nullptr, [this](const SimulationFrameReady&) { tellOfDragging(); });
 }
 
 std::vector<ActionSpec> PlayController::actions()
@@ -68,11 +70,24 @@ void PlayController::showGame(SceneView& view)
     game_->show();
     view.setFocusProxy(game_);
     game_->setFocus();
+    tellOfDragging();
+}
+
+void PlayController::tellOfDragging()
+{
+    const bool listens = editor_.simulation().listensToPointer();
+    if (!game_ || toldOfPointer_ == listens) return;
+    toldOfPointer_ = listens;
+    editor_.showStatus((listens ? tr("The game follows the mouse. Drag bodies with Ctrl and the left button.")
+                                : tr("Drag bodies with the left button."))
+                           .toStdString());
 }
 
 void PlayController::hideGame()
 {
     if (!game_) return;
+    toldOfPointer_.reset();
+    editor_.showStatus({});
     QWidget* view = game_->parentWidget();
     view->setFocusProxy(nullptr);
     game_->hide();

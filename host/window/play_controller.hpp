@@ -23,12 +23,14 @@ public:
 private:
     void showGame(SceneView& view);
     void hideGame();
+    void tellOfDragging();
     void stopIfShownIn(SceneView* view);
 
     Editor& editor_;
     Documents& documents_;
     QPointer<PlayView> game_;
-    Subscription states_;
+    std::optional<bool> toldOfPointer_;  // what the status bar tells: does the game listen to it?
+    Subscription states_, frames_;
 };
 
 }  // namespace jet::host

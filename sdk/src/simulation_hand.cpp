@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jet {
 
@@ -20,16 +21,14 @@ namespace {
 constexpr double kHertz = 5, kDampingRatio = 0.9;
 constexpr double kWeights = 200;        // that it lifts
 constexpr double kLeastGravity = 98.1;  // units / s²: a hand has that strength where nothing weighs anything, too
-constexpr double kRegion = 0.8;         // part of the particles of a soft body that is held
+constexpr double kRegion = 1;           // of the side of a square as large as a soft body: how far it is held
 
-/// So far from the point is the last of the nearest particles that are held.
-double regionOf(std::span<const Vec2> particles, const Vec2& point)
+/// At least the nearest one is held.
+double regionOf(std::span<const Vec2> particles, const Vec2& point, double area)
 {
-    std::vector<double> away;
-    for (const Vec2& particle : particles) away.push_back((particle - point).norm());
-    const auto last = away.begin() + static_cast<std::ptrdiff_t>(kRegion * static_cast<double>(away.size() - 1));
-    std::nth_element(away.begin(), last, away.end());
-    return *last * (1 + 1e-9);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec2& particle : particles) nearest = std::min(nearest, (particle - point).norm());
+    return std::max(kRegion * std::sqrt(std::abs(area)), nearest * (1 + 1e-9));
 }
 
 }  // namespace
@@ -71,7 +70,7 @@ const BodyBinding* Simulation::Private::bodyNear(const Simulation& self, const V
     return nearest;
 }
 
-JointDef Simulation::Private::pullOn(const BodyBinding& binding, const Vec2& at, const Vec2& place) const
+JointDef Simulation::Private::pullOn(const BodyBinding& binding, double area, const Vec2& at, const Vec2& place) const
 {
     JointDef def;
     def.kind = JointDef::Kind::Mouse;
@@ -85,7 +84,7 @@ JointDef Simulation::Private::pullOn(const BodyBinding& binding, const Vec2& at,
     const std::uint32_t first = states.firstPoint[binding.body], last = states.firstPoint[binding.body + 1];
     const std::span<const Vec2> particles = states.points.subspan(first, last - first);
     if (particles.empty()) return def;
-    def.b.radius = regionOf(particles, at);
+    def.b.radius = regionOf(particles, at, area);
     // The joint's frequency is that of the region alone, which has the rest of the body to carry.
     const auto held = std::count_if(particles.begin(), particles.end(),
                                     [&](const Vec2& p) { return (p - at).norm() <= def.b.radius; });
@@ -102,8 +101,10 @@ ItemId Simulation::grab(const Vec2& point, double reach)
     const BodyBinding* body = d_->bodyAt(point);
     if (!body) body = d_->bodyNear(*this, point, reach, at);
     if (!body) return {};
+    const Path* outline = pose(*d_->scene->items().find(body->item));
     try {
-        d_->hand = Hand{body->item, d_->world->addJoint(d_->pullOn(*body, at, point)), point};
+        const JointDef pull = d_->pullOn(*body, outline ? outline->area() : 0, at, point);
+        d_->hand = Hand{body->item, d_->world->addJoint(pull), point};
     } catch (const Failure& failure) {
         if (!std::exchange(d_->handless, true))
             print({OutputLine::Kind::Warning, std::string("bodies cannot be dragged: ") + failure.what(), {}, 0});

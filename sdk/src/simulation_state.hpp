@@ -89,7 +89,7 @@ struct Simulation::Private {
     bool mayDrag(const BodyBinding& binding) const;
     const BodyBinding* bodyAt(const Vec2& point) const;
     const BodyBinding* bodyNear(const Simulation& self, const Vec2& point, double reach, Vec2& at) const;
-    JointDef pullOn(const BodyBinding& binding, const Vec2& at, const Vec2& hand) const;
+    JointDef pullOn(const BodyBinding& binding, double area, const Vec2& at, const Vec2& place) const;
 
     // Properties that change while playing; see simulation_live.cpp.
     void keepTables(const Item& item);

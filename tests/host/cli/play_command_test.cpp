@@ -139,12 +139,19 @@ TEST_F(PlayCommandTest, WrongInputFilesAreToldBeforePlaying)
 {
     writeGame();
     for (const auto& [content, message] : std::map<std::string, std::string>{
-             {"{\n\"events\": [ }", "keys.json:2: error: the recorded input is not valid JSON"},
+             {"{\n\"events\": [ }", "keys.json:2:13: error: the recorded input is not valid JSON"},
              {"[]", "keys.json: error: recorded input: it must be {"},
              {R"({"events": [{"key": "D", "down": true}]})", "event number 1 needs \"step\""},
              {R"({"events": [{"step": -1, "key": "D", "down": true}]})", "needs \"step\""},
              {R"({"events": [{"step": 1, "down": true}]})", "needs \"key\""},
-             {R"({"events": [{"step": 1, "key": "D", "down": 1}]})", "needs \"down\""}}) {
+             {R"({"events": [{"step": 1, "key": "D", "down": 1}]})", "needs \"down\""},
+             {"{\"events\": [\n  7]}", "keys.json:2:3: error: recorded input: event number 1 must be an object"},
+             {"{\"events\": [{\"step\": 1, \"letGo\": true},\n  {\"step\": 1, \"grab\": [1]}]}",
+              "keys.json:2:15: error: recorded input: event number 2 needs \"grab\": [x, y]"},
+             {R"({"events": [{"step": 1, "drag": "here"}]})", "needs \"drag\": [x, y]"},
+             {R"({"events": [{"step": 1, "grab": [1, 2], "reach": -1}]})", "needs a \"reach\" from 0 on"},
+             {R"({"events": [{"step": 1, "letGo": false}]})", "needs \"letGo\": true"},
+             {R"({"events": [{"step": 1, "grab": [1, 2], "letGo": true}]})", "has more than one of"}}) {
         write("keys.json", content);
         const Outcome run = jet("play game --physics falling --input keys.json");
         EXPECT_EQ(run.code, 1) << content;
@@ -178,6 +185,21 @@ TEST_F(PlayCommandTest, ASnapshotNobodyCanMakeIsToldBeforePlaying)
     EXPECT_FALSE(exists("state.json"));
     EXPECT_EQ(jet("play game --physics falling --snapshot picture.count").code, 0);
     EXPECT_EQ(read("picture.count"), "2\n");
+}
+
+TEST_F(PlayCommandTest, AnEngineWithoutJointsIsToldOnceThatNothingCanBeDragged)
+{
+    writeGame();
+    write("hand.json", R"({ "events": [ { "step": 1, "grab": [5, 5], "reach": 100 }, { "step": 2, "drag": [9, 9] },
+                                        { "step": 3, "letGo": true }, { "step": 4, "grab": [1e6, 0] } ] })");
+    const Outcome run = jet("play game --physics falling --steps 10 --input hand.json --record record.json");
+    EXPECT_EQ(run.code, 0);
+    EXPECT_THAT(run.err, HasSubstr("warning: bodies cannot be dragged: "));
+    EXPECT_THAT(run.err,
+                HasSubstr("hand.json:1:15: warning: recorded input: nothing that can be dragged is here at step 1"));
+    EXPECT_EQ(lines(run.err), 3u) << run.err;
+    const auto events = json(read("record.json"))["events"];
+    EXPECT_EQ(events, json(read("hand.json"))["events"]) << events;
 }
 
 /// With the plugins that are shipped.
@@ -237,6 +259,24 @@ TEST_F(PlayPictureTest, ShowsThePageAtItsSizeUnlessAViewIsAskedFor)
     EXPECT_EQ(size(""), Size(1280, 720)) << "the game moved its camera: what it shows is the view";
     writeScene(page(9000000, 9000000));
     EXPECT_EQ(size(""), Size(1280, 720)) << "no picture is as large";
+}
+
+TEST_F(PlayPictureTest, AHandDragsTheSameOnAnyThreads)
+{
+    writeScene("");
+    write("hand.json", R"({ "events": [
+        { "step": 10, "grab": [70, 50], "reach": 15 }, { "step": 11, "drag": [120, 40] }, { "step": 30, "drag": [130, 30] },
+        { "step": 50, "letGo": true }, { "step": 55, "grab": [-900, 0] } ] })");
+    std::set<std::string> hashes;
+    for (const char* threads : {"1", "2", "4"}) {
+        const Outcome run = plain("--json play game --steps 60 --input hand.json --threads " + std::string(threads));
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_EQ(run.err, "hand.json:3:40: warning: recorded input: nothing that can be dragged is here at step 55\n");
+        hashes.insert(json(run.out)["hash"]);
+        EXPECT_GT(json(run.out)["items"][0]["position"][0].get<double>(), 55);
+    }
+    hashes.insert(json(plain("--json play game --steps 60").out)["hash"]);
+    EXPECT_EQ(hashes.size(), 2u) << "one with, and one without the hand";
 }
 
 TEST_F(PlayPictureTest, ShowsWhatIsAskedForOfThePhysics)
