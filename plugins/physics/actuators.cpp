@@ -55,14 +55,6 @@ struct Fading {
     Vec2 slopeB() const { return keptB < 1 ? Vec2(2 * keptA * perB * armB) : Vec2(0, 0); }
 };
 
-/// What is taken of the rate, over its compliance, for it to be divided by √(1 + h damping compliance), twice in a
-/// substep: together as by damping over h that is worked out implicitly.
-double halfBrake(double damping, double compliance, double h)
-{
-    const double all = 1 + h * damping * compliance;
-    return h * damping / (all + std::sqrt(all));
-}
-
 /// A pure couple: on a soft body spread as a rigid turning about its centre of mass, so that it does not bend it.
 void addCouple(State& state, const BodyRecord& body, double torque)
 {
@@ -229,24 +221,20 @@ void Actuators::addForces(State& state) const
         if (!sleeps(state, force.at)) force.at.addForce(state, force.force);
 }
 
-/// Damping of springs comes in two halves, of which the second goes through the springs the other way: dampers one
-/// after the other are together no damper of what a stiff body that they share does; those and back again are.
 void Actuators::applySprings(State& state, double h, bool backwards)
 {
-    const auto sweep = [&](bool back, bool first) {
-        for (std::size_t i = 0; i < springs_.size(); ++i)
-            apply(state, springs_[back ? springs_.size() - 1 - i : i], h, first);
-    };
-    sweep(backwards, true);
-    for (std::size_t i = 0; i < angularSprings_.size(); ++i)
-        apply(state, angularSprings_[backwards ? angularSprings_.size() - 1 - i : i], h);
-    sweep(!backwards, false);
+    eachOf(springs_, backwards, [&](Spring& spring) { apply(state, spring, h); });
+    eachOf(angularSprings_, backwards, [&](AngularSpring& spring) { apply(state, spring, h); });
 }
 
+/// Dampers one after the other are together no damper of what a stiff body that they share does; those and back again
+/// are (docs/decisions/0086).
 void Actuators::brake(State& state, double h, bool backwards)
 {
-    for (std::size_t i = 0; i < angularSprings_.size(); ++i)
-        brake(state, angularSprings_[backwards ? angularSprings_.size() - 1 - i : i], h);
+    const auto linear = [&] { eachOf(springs_, backwards, [&](Spring& spring) { brake(state, spring, h); }); };
+    if (!backwards) linear();
+    eachOf(angularSprings_, backwards, [&](AngularSpring& spring) { brake(state, spring, h); });
+    if (backwards) linear();
 }
 
 void Actuators::addSpringForces(State& state)
@@ -296,25 +284,39 @@ double Actuators::energy(const State& state, const AngularSpring& spring, double
     return 0.5 * spring.stiffness * std::sqrt(kept[0] * kept[1]) * now * before;
 }
 
-void Actuators::apply(State& state, Spring& spring, double h, bool first)
+/// The line of a whole spring as it lies; false where it has none.
+bool Actuators::lineOf(const State& state, const Spring& spring, Line& line)
 {
-    if (!spring.alive || sleeps(state, spring.a) || sleeps(state, spring.b)) return;
+    if (!spring.alive || sleeps(state, spring.a) || sleeps(state, spring.b)) return false;
     const Vec2 apart = spring.a.position(state) - spring.b.position(state);
-    const double length = std::sqrt(apart.squaredNorm());
-    if (spring.tearLength > 0 && length > spring.tearLength) {
+    line.length = std::sqrt(apart.squaredNorm());
+    if (!(line.length > 1e-12)) return false;
+    line.along = apart / line.length;
+    line.jacobian.add(state, spring.a, line.along);
+    line.jacobian.add(state, spring.b, -line.along);
+    line.compliance = line.jacobian.compliance(state);
+    return true;
+}
+
+/// What a damper gave in the substep before along another line is not given along this one.
+void Actuators::apply(State& state, Spring& spring, double h)
+{
+    Line line;
+    if (!lineOf(state, spring, line)) return;
+    if (spring.tearLength > 0 && line.length > spring.tearLength) {
         spring.alive = 0;
         return;
     }
-    if (!(length > 1e-12)) return;
-    const Vec2 along = apart / length;
-    AnchorJacobian jacobian;
-    jacobian.add(state, spring.a, along);
-    jacobian.add(state, spring.b, -along);
-    const double compliance = jacobian.compliance(state);
-    if (!(compliance > 0)) return;
-    const double elastic = first ? -h * spring.stiffness * (length - spring.restLength) : 0;
-    const double speed = jacobian.rate(state) + compliance * elastic;
-    jacobian.applyTurning(state, elastic - halfBrake(spring.damping, compliance, h) * speed, kMostTurn / h);
+    if (!(line.compliance > 0)) return;
+    const double elastic = -h * spring.stiffness * (line.length - spring.restLength);
+    double braking = spring.braking.dot(line.along);
+    if (line.jacobian.turns(state, elastic + braking) > kMostTurn / h) {
+        // What it would turn too fast it may not once it is damped.
+        const double damping = h * spring.damping;
+        braking = -(line.jacobian.rate(state) + line.compliance * elastic) / (1 / damping + line.compliance);
+    }
+    spring.braking = braking * line.along;
+    line.jacobian.applyTurning(state, elastic + braking, kMostTurn / h);
 }
 
 /// Where an arm is so short that the spring holds less, it draws that arm in by the slope of what it holds, implicitly,
@@ -351,6 +353,26 @@ void Actuators::apply(State& state, AngularSpring& spring, double h)
 /// A soft row, as joints and contacts have: its impulse starts as that of the substep before, so that at rest joints
 /// bear what they bear, and comes to −h kd times the rate by what is missing. Damped once, before joints have their
 /// say, it would take from what gravity gives in free fall.
+double Actuators::change(const State& state, const AnchorJacobian& jacobian, double damping, double braking)
+{
+    return -(jacobian.rate(state) + braking / damping) / (1 / damping + jacobian.compliance(state));
+}
+
+void Actuators::brake(State& state, Spring& spring, double h)
+{
+    const double damping = h * spring.damping;
+    if (!(damping > 0)) {
+        spring.braking = Vec2(0, 0);
+        return;
+    }
+    Line line;
+    if (!lineOf(state, spring, line)) return;
+    const double was = spring.braking.dot(line.along), more = change(state, line.jacobian, damping, was);
+    spring.braking = (was + more) * line.along;
+    if (isFinite(spring.braking)) return line.jacobian.applyTurning(state, more, kMostTurn / h);
+    spring.braking = Vec2(0, 0);  // what ran away starts from nothing
+}
+
 void Actuators::brake(State& state, AngularSpring& spring, double h)
 {
     if (spring.removed || sleeps(state, spring.a) || sleeps(state, spring.centre) || sleeps(state, spring.b)) return;
@@ -360,11 +382,10 @@ void Actuators::brake(State& state, AngularSpring& spring, double h)
         spring.braking = 0;
         return;
     }
-    const double change =
-        -(damping * jacobian.rate(state) + spring.braking) / (1 + damping * jacobian.compliance(state));
-    jacobian.apply(state, change);
-    spring.braking += change;
-    if (!std::isfinite(spring.braking)) spring.braking = 0;  // what ran away starts from nothing
+    const double more = change(state, jacobian, damping, spring.braking);
+    spring.braking += more;
+    if (std::isfinite(spring.braking)) return jacobian.apply(state, more);
+    spring.braking = 0;
 }
 
 }  // namespace jet::physics

@@ -76,6 +76,28 @@ public:
             if (spring.alive != 0) visit(spring.a.body, spring.b.body, spring.ks, spring.kd);
     }
 
+    /// Calls visit(body) for what springs will have moved by more than a part of its length once they are not damped
+    /// any more: what damping takes off their pull, at substeps of h, is way that is left.
+    template <class Visit>
+    void eachCreeping(const State& state, double h, Visit&& visit) const
+    {
+        constexpr double kLeft = 5e-5;  // lengths; radians
+        const auto ask = [&](double left, Index body) {
+            if (body != kNone && left > kLeft * state.bodies[body].length) visit(body);
+        };
+        for (const Spring& spring : springs_) {
+            if (spring.alive == 0 || !(spring.stiffness > 0)) continue;
+            const double left = spring.braking.norm() / (h * spring.stiffness);
+            ask(left, spring.a.body), ask(left, spring.b.body);
+        }
+        for (const AngularSpring& spring : angularSprings_) {
+            if (spring.removed || !(spring.stiffness > 0)) continue;
+            const double left = std::abs(spring.braking) / (h * spring.stiffness);
+            for (const Index body : {spring.a.body, spring.centre.body, spring.b.body})
+                if (body != kNone && left > kLeft) visit(body);
+        }
+    }
+
     /// What whole springs hold: visit(body, body, energy); ½ ks e e', e the strain now, e' before the last move over h.
     template <class Visit>
     void eachEnergy(const State& state, double h, Visit&& visit) const
@@ -93,15 +115,15 @@ public:
     void prepare(const StiffnessBounds&, double h, bool plain = false);
     /// Adds torques and forces to the nodes; they hold for one substep, as levers turn with their bodies.
     void addForces(State&) const;
-    /// Changes velocities by the impulses of springs and angular springs over h; the damping of angular ones is that of
-    /// the substep before.
+    /// Changes velocities by the impulses of springs and angular springs over h; their damping is that of the substep
+    /// before.
     void applySprings(State&, double h, bool backwards);
-    bool brakes() const { return angularSprings_.any(); }
-    /// Makes the damping of angular springs that of the rates as they are, as a row of the joints' solver.
+    /// Makes their damping that of the rates as they are, as rows of the joints' solver.
     void brake(State&, double h, bool backwards);
     /// What brakes is of one substep: for others of another length.
     void scale(double ratio)
     {
+        for (Spring& spring : springs_) spring.braking *= ratio;
         for (AngularSpring& spring : angularSprings_) spring.braking *= ratio;
     }
     /// The same as forces of the state as it is, for Method::SemiImplicitEuler.
@@ -111,7 +133,8 @@ public:
     void archive(Archive& with)
     {
         for (Spring& spring : springs_)
-            with(spring.alive), with(spring.restLength), with(spring.ks), with(spring.kd), with(spring.tearLength);
+            with(spring.alive), with(spring.restLength), with(spring.ks), with(spring.kd), with(spring.tearLength),
+                with(spring.braking);
         for (AngularSpring& spring : angularSprings_)
             with(spring.angle), with(spring.restAngle), with(spring.ks), with(spring.kd), with(spring.braking);
         for (Torque& torque : torques_) with(torque.value);
@@ -125,6 +148,7 @@ private:
         std::uint8_t alive = 1;
         bool removed = false;
         double stiffness = 0, damping = 0;  // for the prepared substep, as in soft_springs.cpp
+        Vec2 braking = Vec2(0, 0);          // impulse on a of damping in the last substep
     };
     struct AngularSpring {
         AnchorPoint a, centre, b;
@@ -175,10 +199,22 @@ private:
 
     static double energy(const State&, const Spring&, double h);
     static double energy(const State&, const AngularSpring&, double h);
-    /// Half of the damping in h; `first`: and all that is elastic.
-    static void apply(State&, Spring&, double h, bool first);
+    struct Line {
+        double length = 0, compliance = 0;
+        Vec2 along;
+        AnchorJacobian jacobian;
+    };
+    static bool lineOf(const State&, const Spring&, Line&);
+    static void apply(State&, Spring&, double h);
     static void apply(State&, AngularSpring&, double h);
+    static double change(const State&, const AnchorJacobian&, double damping, double braking);
+    static void brake(State&, Spring&, double h);
     static void brake(State&, AngularSpring&, double h);
+    template <class Actuator, class Visit>
+    static void eachOf(List<Actuator>& all, bool backwards, Visit&& visit)
+    {
+        for (std::size_t i = 0; i < all.size(); ++i) visit(all[backwards ? all.size() - 1 - i : i]);
+    }
 
     List<Spring> springs_;
     List<AngularSpring> angularSprings_;

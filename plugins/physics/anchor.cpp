@@ -136,8 +136,8 @@ void AnchorJacobian::add(const State& state, const AnchorPoint& anchor, const Ve
         const double angular = cross(lever, linear);
         int at = 0;
         while (at < count_ && entries_[at].node != anchor.node[i]) ++at;
-        if (at == count_) entries_[count_++] = {anchor.node[i], Vec2(0, 0), 0};
-        entries_[at].linear += linear;
+        if (at == count_) entries_[count_++] = {anchor.node[i], 0, 0, 0};
+        entries_[at].x += linear.x(), entries_[at].y += linear.y();
         entries_[at].angular += angular;
     }
 }
@@ -147,7 +147,7 @@ double AnchorJacobian::rate(const State& state) const
     double sum = 0;
     for (int i = 0; i < count_; ++i) {
         const Entry& e = entries_[i];
-        sum += e.linear.dot(state.nodes.velocity[e.node]) + e.angular * state.nodes.omega[e.node];
+        sum += e.linear().dot(state.nodes.velocity[e.node]) + e.angular * state.nodes.omega[e.node];
     }
     return sum;
 }
@@ -157,7 +157,7 @@ double AnchorJacobian::compliance(const State& state) const
     double sum = 0;
     for (int i = 0; i < count_; ++i) {
         const Entry& e = entries_[i];
-        sum += state.nodes.invMass[e.node] * e.linear.squaredNorm() +
+        sum += state.nodes.invMass[e.node] * e.linear().squaredNorm() +
                state.nodes.invInertia[e.node] * e.angular * e.angular;
     }
     return sum;
@@ -166,7 +166,7 @@ double AnchorJacobian::compliance(const State& state) const
 void AnchorJacobian::addForce(State& state, double force) const
 {
     for (int i = 0; i < count_; ++i) {
-        state.nodes.force.add(entries_[i].node, force * entries_[i].linear);
+        state.nodes.force.add(entries_[i].node, force * entries_[i].linear());
         state.nodes.torque.add(entries_[i].node, force * entries_[i].angular);
     }
 }
@@ -175,9 +175,21 @@ void AnchorJacobian::apply(State& state, double impulse) const
 {
     for (int i = 0; i < count_; ++i) {
         const Entry& e = entries_[i];
-        state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear;
+        state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear();
         state.nodes.omega.add(e.node, state.nodes.invInertia[e.node] * impulse * e.angular);
     }
+}
+
+double AnchorJacobian::turns(const State& state, double impulse) const
+{
+    double most = 0;
+    for (int i = 0; i < count_; ++i) {
+        const Entry& e = entries_[i];
+        const double omega = state.nodes.omega[e.node];
+        const double turned = std::abs(omega + state.nodes.invInertia[e.node] * impulse * e.angular);
+        if (turned > std::abs(omega)) most = std::max(most, turned);
+    }
+    return most;
 }
 
 void AnchorJacobian::applyTurning(State& state, double impulse, double most) const
@@ -185,7 +197,7 @@ void AnchorJacobian::applyTurning(State& state, double impulse, double most) con
     for (int i = 0; i < count_; ++i) {
         const Entry& e = entries_[i];
         const double omega = state.nodes.omega[e.node], allowed = std::max(most, std::abs(omega));
-        state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear;
+        state.nodes.velocity[e.node] += state.nodes.invMass[e.node] * impulse * e.linear();
         const double pushed = omega + state.nodes.invInertia[e.node] * impulse * e.angular;
         state.nodes.omega.set(e.node, std::clamp(pushed, -allowed, allowed));
     }

@@ -38,16 +38,19 @@ public:
     double rate(const State&) const;
     double compliance(const State&) const;
     void apply(State&, double impulse) const;
+    /// rad/s of what that would turn fastest; 0 where it would turn slower than it did.
+    double turns(const State&, double impulse) const;
     /// The same, but it makes nothing turn faster than `most` rad/s.
     void applyTurning(State&, double impulse, double most) const;
     /// The same as a force, for this substep.
     void addForce(State&, double force) const;
 
 private:
+    /// (Of numbers, as vectors would be set to 0 for each of the many that are not used.)
     struct Entry {
         Index node;
-        Vec2 linear;
-        double angular;
+        double x, y, angular;
+        Vec2 linear() const { return {x, y}; }
     };
     int count_ = 0;
     std::array<Entry, 3 * AnchorPoint::kMostNodes> entries_;

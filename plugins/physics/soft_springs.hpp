@@ -57,9 +57,9 @@ public:
     double energy(const State&, Index body, double h) const;
     /// What says how slowly a body may move by itself.
     struct Slowest {
-        double ks = std::numeric_limits<double>::infinity();  // least of its springs, force / unit
-        double fade =
-            std::numeric_limits<double>::infinity();  // least ks / kd, 1 / s: how fast what is damped comes to rest
+        double ks = std::numeric_limits<double>::infinity();    // least of its springs, force / unit
+        double fade = std::numeric_limits<double>::infinity();  // least ks / kd, 1 / s, as far as substeps bear them:
+                                                                // how fast what is damped comes to rest
     };
     Slowest slowest(Index body) const;
     /// Does plasticity change the body as it is?
@@ -154,6 +154,7 @@ private:
         double ks = 0, kd = 0, tearRatio = 0;
         double fastestAtRest = 0;  // rad / s, of vast bodies; 0: not known
         double provenRate = 0;     // substeps / s that were proven to suffice, besides the bounds; 0: none
+        double fade = std::numeric_limits<double>::infinity();  // as of Slowest, in the prepared substep
     };
 
     void addAngular(const State&, const AngularSpringDef&, std::span<const Index> nodeOf, Index body, Index place);
@@ -174,7 +175,7 @@ private:
     bool isStable(const State&, const Mesh&, double h);
     void arrange(const State&);
     void watchTears(soft::Batch&);
-    void prepareMesh(const State&, const StiffnessBounds&, const Mesh&, const BodyRecord&, double h);
+    void prepareMesh(const State&, const StiffnessBounds&, Mesh&, const BodyRecord&, double h);
     void measureBias(const State&, Mesh&);
     void fill(Mesh&);
     void fillRests(const Mesh&);

@@ -164,8 +164,8 @@ void SoftSprings::addTo(StiffnessBounds& bounds, const State& state, bool loose)
 }
 
 /// Turns stiffness and damping as they are into those a substep can bear.
-void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, const Mesh& mesh,
-                              const BodyRecord& body, double h)
+void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds, Mesh& mesh, const BodyRecord& body,
+                              double h)
 {
     const Nodes& nodes = state.nodes;
     const bool proven = mesh.provenRate > 0 && std::max(h, bounds.longest()) * mesh.provenRate <= 1 + 1e-9;
@@ -199,9 +199,12 @@ void SoftSprings::prepareMesh(const State& state, const StiffnessBounds& bounds,
         const double room = std::min(1 - 0.5 * (stable(node) ? elastic : std::min(elastic, 1.0)), most);
         load_[k] = !proven && load_[k] > room ? room / load_[k] : 1;
     }
+    mesh.fade = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < mesh.springs.count; ++k) {
         const Index i = mesh.springs.first + k;
         damping_[k] *= std::min(load_[a_[i] - mesh.nodes.first], load_[b_[i] - mesh.nodes.first]);
+        // Torn ones as well, as above.
+        if (a_[i] != b_[i] && damping_[k] > 0) mesh.fade = std::min(mesh.fade, stiffness_[k] / damping_[k]);
     }
 }
 
@@ -209,21 +212,18 @@ SoftSprings::Slowest SoftSprings::slowest(Index body) const
 {
     const Mesh& mesh = meshes_[body];
     Slowest slowest;
-    const auto fades = [&](double ks, double kd) {
-        if (kd > 0) slowest.fade = std::min(slowest.fade, ks / kd);
-    };
-    const auto count = [&](double ks, double kd) {
+    slowest.fade = mesh.fade;
+    const auto count = [&](double ks) {
         if (ks > 0) slowest.ks = std::min(slowest.ks, ks);
-        fades(ks, kd);
     };
     if (mesh.uniform) {
-        if (mesh.springs.count > 0) count(mesh.ks, mesh.kd);
+        if (mesh.springs.count > 0) count(mesh.ks);
     } else {
         for (Index i = mesh.springs.first; i < mesh.springs.end(); ++i)
-            if (alive_[i]) count(kindOf(i).ks, kindOf(i).kd);
+            if (alive_[i]) count(kindOf(i).ks);
     }
     for (const Angular& spring : angular_)
-        if (spring.body == body) fades(spring.ks, spring.kd);
+        if (spring.body == body && spring.kd > 0) slowest.fade = std::min(slowest.fade, spring.ks / spring.kd);
     return slowest;
 }
 

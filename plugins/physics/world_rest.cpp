@@ -121,6 +121,7 @@ Bonds World::bondsOfRigid() const
 {
     Bonds bonds;
     actuators_.eachBond([&](Index a, Index b) { bonds.pairs.emplace_back(a, b); });
+    actuators_.eachCreeping(state_, impulsesOf_, [&](Index body) { bonds.awake.push_back(body); });
     const auto keepAwake = [&](Index body, Index other) {
         if (body == kNone || other == kNone || state_.bodies[other].fixed) return;
         if (!state_.bodies[other].simple) bonds.awake.push_back(body);
@@ -167,6 +168,7 @@ void World::restTogether()
         if (!moves(body) || bodies[body].asleep || bodies[body].simple) continue;
         restless[body] = bodies[body].rigid || !slumber_.isStill(body) || finder_.expectsHit(body);
     }
+    actuators_.eachCreeping(state_, impulsesOf_, [&](Index body) { restless[body] |= bodies[body].simple; });
     const auto hold = [&](Index a, Index b) {
         if (a == kNone || b == kNone || a == b) return;
         if (moves(a) && moves(b)) return unite(group, a, b);

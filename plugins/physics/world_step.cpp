@@ -205,9 +205,10 @@ void World::substep(double h, int index, int count)
     const double gravity = settings_.applyGravity ? settings_.gravity.norm() : 0;
     softContacts_.refresh(state_, h, gravity);
     const bool accounts = !plain_ && accounts_.any(), backwards = index % 2 == 1;
-    const bool brakes = !plain_ && actuators_.brakes();
-    const auto brake = [&](bool back) {
+    const bool brakes = !plain_ && actuators_.anySpring();
+    const auto brake = [&](bool back, bool warm) {
         if (accounts) accounts_.begin(state_);
+        if (warm) softJoints_.warm(state_, h);
         actuators_.brake(state_, h, back);
         if (accounts) accounts_.end(state_);
     };
@@ -237,11 +238,10 @@ void World::substep(double h, int index, int count)
     }
     const Stopwatch watch(stats_.solverMs);
     wholes_.keep(state_);
-    rigid_.push(state_, brakes ? std::function<void()>([&] { brake(backwards); }) : nullptr);
+    rigid_.push(state_, brakes ? std::function<void()>([&] { brake(backwards, true); }) : nullptr);
     if (accounts) accounts_.begin(state_);
-    softJoints_.push(state_, h);
+    softJoints_.push(state_, h, brakes);
     if (accounts) accounts_.end(state_);
-    if (brakes && !softJoints_.empty()) brake(backwards);  // theirs start no sooner
     ContactSolver solver(state_, contacts_, h, gravity);
     solver.prepare();
     solver.solve();
@@ -251,7 +251,7 @@ void World::substep(double h, int index, int count)
     integratePositions(state_, springs_, h);
     wholes_.end(state_, h);
     moveKinematic(h);
-    if (brakes) brake(!backwards);
+    if (brakes) brake(!backwards, false);
     rigid_.relax(state_);
     if (accounts) accounts_.begin(state_);
     softJoints_.relax(state_);

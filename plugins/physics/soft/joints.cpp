@@ -297,7 +297,7 @@ double Joints::energy(const State& state, Held& held, double h)
 }
 
 /// The work of an impulse is that along the mean of the velocities before and after.
-void Joints::solveRows(Held& held, bool push)
+void Joints::solveRows(Held& held, Act what)
 {
     const Softness<double> standard = softnessOf(std::min(kHertz, kHertzPerSubstepRate / h_), kDampingRatio, h_);
     const bool mouse = held.joint.def.kind == JointDef::Kind::Mouse;
@@ -306,34 +306,36 @@ void Joints::solveRows(Held& held, bool push)
         change();
         if (row.velocityOnly || mouse) held.given += (row.impulse - had) * 0.5 * (before + row.moving(ends_.data()));
     };
-    if (push)
+    if (begins(what))
         for (JointRow<double>& row : rows_) act(row, 0, [&] { row.warm(ends_.data()); });
-    for (int pass = 0; pass < kPasses; ++pass)
+    for (int pass = 0; what != Act::Warm && pass < kPasses; ++pass)
         for (JointRow<double>& row : rows_)
-            act(row, row.impulse, [&] { row.solve(ends_.data(), standard, 1 / h_, push); });
+            act(row, row.impulse, [&] { row.solve(ends_.data(), standard, 1 / h_, what != Act::Relax); });
 }
 
-void Joints::solve(State& state, Held& held, bool push)
+void Joints::solve(State& state, Held& held, Act what)
 {
     Joint& joint = held.joint;
-    const double moved = push ? 0 : h_;
+    const bool relax = what == Act::Relax;
+    const double moved = relax ? h_ : 0;
     const Pose a = poseOf(state, held.a, moved), b = poseOf(state, held.b, moved);
     held.a.angle = a.angle, held.b.angle = b.angle;
     held.a.lag = a.lag, held.b.lag = b.lag;
     joint.substep = h_;  // they have been scaled
     makeRows(held, a, b, h_);
     const auto energy = [&] { return kineticEnergy(ends_[1]) + kineticEnergy(ends_[2]); };
-    if (push) held.work = held.stored = 0;
-    for (const JointRow<double>& row : rows_) (push ? held.stored : held.work) += row.springEnergy(row.error);
+    if (begins(what)) held.work = held.stored = 0;
+    for (const JointRow<double>& row : rows_)
+        if (what != Act::Push) (relax ? held.work : held.stored) += row.springEnergy(row.error);
     held.work -= energy();
-    solveRows(held, push);
+    solveRows(held, what);
     held.work += energy();
-    if (!push) takeGain(held);
+    if (relax) takeGain(held);
     give(state, held.a, a, ends_[1]);
     give(state, held.b, b, ends_[2]);
     for (const JointRow<double>& row : rows_) {
         joint.impulse[row.slot] = row.impulse;
-        if (push) continue;
+        if (!relax) continue;
         held.pushed += row.impulse * Vec2(row.bx, row.by);
         if (row.bx == 0 && row.by == 0) held.turned += row.torqueOfB();
     }
@@ -371,17 +373,24 @@ bool Joints::rests(const State& state, const Held& held)
     return state.atRest(a, b);
 }
 
-void Joints::push(State& state, double h)
+void Joints::warm(State& state, double h)
 {
     h_ = h;
     for (Held& held : joints_)
-        if (pulls(state, held) && !rests(state, held)) solve(state, held, true);
+        if (pulls(state, held) && !rests(state, held)) solve(state, held, Act::Warm);
+}
+
+void Joints::push(State& state, double h, bool warmed)
+{
+    h_ = h;
+    for (Held& held : joints_)
+        if (pulls(state, held) && !rests(state, held)) solve(state, held, warmed ? Act::Push : Act::WarmAndPush);
 }
 
 void Joints::relax(State& state)
 {
     for (std::size_t i = joints_.size(); i-- > 0;)
-        if (pulls(state, joints_[i]) && !rests(state, joints_[i])) solve(state, joints_[i], false);
+        if (pulls(state, joints_[i]) && !rests(state, joints_[i])) solve(state, joints_[i], Act::Relax);
 }
 
 bool Joints::settle(Held& held, double dt)

@@ -26,7 +26,9 @@ public:
     bool lives(Index joint) const { return joints_[joint].joint.lives(); }
     const Joint& joint(Index joint) const { return joints_[joint].joint; }
 
-    void push(State&, double h);
+    void push(State&, double h, bool warmed = false);
+    /// What push() else begins with, for others to act in between.
+    void warm(State&, double h);
     void relax(State&);
     /// After the last substep of a step of dt: what the joints bore; true when one broke under it.
     bool finish(const State&, double dt);
@@ -146,6 +148,9 @@ private:
         bool background() const { return nodes.empty(); }
         bool turns() const { return background() || rigid || nodes.size() > 1; }
     };
+    enum class Act { Warm, Push, WarmAndPush, Relax };
+    /// With the impulses of the substep before.
+    static bool begins(Act what) { return what == Act::Warm || what == Act::WarmAndPush; }
     struct Pose {
         Vec2 centre = Vec2(0, 0), velocity = Vec2(0, 0), rotation = Vec2(1, 0);
         double angle = 0, omega = 0, invMass = 0, invInertia = 0;
@@ -201,9 +206,9 @@ private:
     void addPoint(const Joint&, const JointFrame&);
     void makeRows(const Held&, const Pose& a, const Pose& b, double h);
     void keepStiffness(const Held&, JointRow<double>&, double h) const;
-    void solveRows(Held&, bool push);
+    void solveRows(Held&, Act);
     double energy(const State&, Held&, double h);
-    void solve(State&, Held&, bool push);
+    void solve(State&, Held&, Act);
     void takeGain(Held&);
 
     std::vector<Held> joints_;

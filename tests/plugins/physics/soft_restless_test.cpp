@@ -87,6 +87,21 @@ TEST(SoftRestless, WhatCreepsBackAgainstAStrongDamperIsNearItsPlaceWhenItSleeps)
     EXPECT_FALSE(slept) << "it takes a quarter of an hour";
 }
 
+TEST(SoftRestless, WhatIsDampedFarBeyondCriticallySleepsNearItsPlace)
+{
+    // Its substeps bear a damping of some 10: what is beyond that holds it back no longer.
+    for (const double kd : {1e2, 1e3, 1e5, 1e9}) {
+        WorldSettings settings = sleepy();
+        settings.gravity = {0, 0};
+        auto world = JetPhysics().createWorld(settings);
+        SoftBodyDef def = jelly({0, 0}, 1, kd);
+        for (Vec2& p : def.particles) p.x() *= 1.1;
+        const BodyHandle body = world->addSoftBody(def);
+        EXPECT_TRUE(everSleeps(*world, body, 35)) << kd;
+        EXPECT_NEAR(world->bodies().bounds[body].size().x(), 10, 0.004) << kd;
+    }
+}
+
 TEST(SoftRestless, WhatFlowsDoesNotSleepAndSleepsOnceItHasFlowed)
 {
     for (const double creep : {1e-3, 0.05, 10.0}) {
