@@ -5,7 +5,11 @@
 
 #include "room.hpp"
 
+#include <jet/geometry.hpp>
+
 #include <cassert>
+#include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace jet::physics {
@@ -57,7 +61,10 @@ private:
     bool changesNothing(const T& value) const
     {
         const T sum(usual_ + value);
-        return sum == usual_ || !(sum == sum);
+        if constexpr (std::is_floating_point_v<T>)
+            return sum == usual_ || !std::isfinite(sum);
+        else
+            return sum == usual_ || !isFinite(sum);
     }
 
     std::vector<T> values_;
