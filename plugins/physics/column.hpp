@@ -46,25 +46,24 @@ public:
     }
     void set(std::size_t row, const T& value)
     {
-        assert(row < values_.size() || value == usual_);
+        assert(row < values_.size() || isUsual(value));
         if (row < values_.size()) values_[row] = value;
     }
     /// Past the end only what leaves the usual as it is.
     void add(std::size_t row, const T& value)
     {
-        assert(row < values_.size() || changesNothing(value));
+        assert(row < values_.size() || isUsual(T(usual_ + value)));
         if (row < values_.size()) values_[row] += value;
     }
 
 private:
     /// Or is no number, which is stopped where it moves something (speed_limit.hpp).
-    bool changesNothing(const T& value) const
+    bool isUsual(const T& value) const
     {
-        const T sum(usual_ + value);
         if constexpr (std::is_floating_point_v<T>)
-            return sum == usual_ || !std::isfinite(sum);
+            return value == usual_ || !std::isfinite(value);
         else
-            return sum == usual_ || !isFinite(sum);
+            return value == usual_ || !isFinite(value);
     }
 
     std::vector<T> values_;
