@@ -49,20 +49,6 @@ void Solver<Real>::begin(std::size_t bodies, const StepShape& shape, Pool& pool,
 }
 
 template <class Real>
-template <class Bodies, class Work>
-void Solver<Real>::pass(Bodies&& bodies, Work&& work)
-{
-    const auto range = [&](Domains::Slots slots) {
-        if (slots.first < slots.last) bodies(slots.first, slots.last - slots.first);
-    };
-    range(domains_.slotsOf(Domains::kRoot));
-    eachNode([&](Node node) {
-        if (node != Domains::kRoot && domains_.isLeaf(node)) range(domains_.slotsOf(node));
-        work(node);
-    });
-}
-
-template <class Real>
 template <class Work>
 void Solver<Real>::eachColour(Node node, Work&& work)
 {
@@ -94,6 +80,38 @@ void Solver<Real>::countUsed()
     }
 }
 
+/// Bodies of domains that constraints of borders push: in each pass, who solves those takes their states from the
+/// thread that has the domain.
+template <class Real>
+void Solver<Real>::listShared()
+{
+    for (auto& slots : shared_) slots.clear();
+    if (pool_->threads() <= 1) return;
+    const auto add = [&](std::int32_t far) {
+        if (far != 0) shared_[domains_.nodeOf(domains_.bodyAt(slotAt<Real>(far)))].push_back(slotAt<Real>(far));
+    };
+    const auto addLanes = [&](const auto& groups) {
+        for (const auto& group : groups)
+            for (std::size_t lane = 0; lane < kWidth; ++lane) add(group.a[lane]), add(group.b[lane]);
+    };
+    for (std::size_t node = 1; node < domains_.leaves(); ++node)
+        for (std::size_t i = 0; i < kColours; ++i) {
+            const std::size_t which = firstColourOf(static_cast<Node>(node)) + i;
+            addLanes(colours_[which].contacts), addLanes(jointColours_[which].joints);
+        }
+    for (auto& slots : shared_) {
+        std::sort(slots.begin(), slots.end());
+        slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    }
+}
+
+/// All at once, not one after the other as they are come upon.
+template <class Real>
+void Solver<Real>::askForShared(Node leaf) const
+{
+    for (const Index slot : shared_[leaf]) prefetchToWrite(&states_[slot]);
+}
+
 /// Warm-start impulses are per substep: scaled, they stand for the same force.
 template <class Real>
 void Solver<Real>::prepare(int passes)
@@ -103,6 +121,7 @@ void Solver<Real>::prepare(int passes)
     const auto ratio = static_cast<Real>(lastH_ > 0 ? shape_.h / lastH_ : 1);
     lastH_ = shape_.h;
     countUsed();
+    listShared();
     eachNode([&](Node node) { foreseeNode(node); });
     if (ratio == 1 && !bounces_) return;
     eachNode([&](Node node) {
@@ -171,14 +190,14 @@ void Solver<Real>::pushNode(Node node)
     });
 }
 
-/// The same, without pushing errors out; `last` in this half of the substep.
+/// The same, without pushing errors out.
 template <class Real>
-void Solver<Real>::relaxNode(Node node, int pass, bool last)
+void Solver<Real>::relaxNode(Node node, const Pass& pass)
 {
     BodyState<Real>* states = states_.data();
-    if (pass == 0) turnNode(node);
+    if (pass.again == 0) turnNode(node);
     for (JointRow<Real>& row : rows_[node]) row.solve(states, constants_.joint, constants_.inverseH, false);
-    if (last)
+    if (pass.last)
         for (JointRow<Real>& row : rows_[node])
             if (row.velocityOnly) row.given += std::max(Real(0), row.impulse * row.moving(states));
     for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
@@ -186,43 +205,42 @@ void Solver<Real>::relaxNode(Node node, int pass, bool last)
         kernels_->relaxJoints(states, c.joints.data(), c.joints.size());
     }
     StepConstants<Real> constants = constants_;
-    if (last) constants.totalKept = fresh_ ? 0 : 1, constants.totalAdded = 1;
+    if (pass.last) constants.totalKept = pass.first ? 0 : 1, constants.totalAdded = 1;
     eachRun(node, [&](ContactLanes<Real>* contacts, FrictionLanes<Real>* frictions, std::size_t count) {
-        if (pass % kRelaxPasses != kRelaxPasses - 1) {
+        if (pass.again % kRelaxPasses != kRelaxPasses - 1) {
             kernels_->calmContacts(states, contacts, count, constants);
         } else {
             kernels_->relaxContacts(states, contacts, frictions, count, constants);
         }
     });
-    if (last) foreseeNode(node);
+    if (pass.last) foreseeNode(node);
 }
 
+/// How often constraints are relaxed in a substep.
 template <class Real>
-template <class Bodies>
-void Solver<Real>::solveAll(bool push, Bodies&& bodies)
+int Solver<Real>::relaxPasses() const
 {
-    const int passes = push ? passes_ : passes_ * kRelaxPasses;
-    for (int i = 0; i < passes; ++i)
-        pass(
-            [&](Index first, Index count) {
-                if (i == 0) bodies(first, count);
-            },
-            [&](Node node) {
-                if (push) {
-                    pushNode(node);
-                } else {
-                    relaxNode(node, i, i + 1 == passes);
-                }
-            });
-    if (!push) fresh_ = false;
+    return passes_ * kRelaxPasses;
 }
 
+/// Of a whole step: warm starting, and then the passes of each substep.
 template <class Real>
-void Solver<Real>::run()
+typename Solver<Real>::Pass Solver<Real>::passAt(std::size_t index) const
 {
-    // Warm starting is worked out once, on bodies at rest, and then kept up with by the body passes.
+    if (index == 0) return {Pass::Kind::Warm, 0, true, true, false};
+    const int each = passes_ + relaxPasses(), substep = static_cast<int>(index - 1) / each,
+              at = static_cast<int>(index - 1) % each;
+    const bool push = at < passes_;
+    const int again = push ? at : at - passes_;
+    return {push ? Pass::Kind::Push : Pass::Kind::Relax, again, again == 0, substep == 0, at + 1 == each};
+}
+
+/// Warm starting is worked out once, on bodies at rest, and then kept up with by the body passes.
+template <class Real>
+void Solver<Real>::moveBodies(const Pass& pass, Index first, Index count)
+{
     const auto moves = [](const BodyState<Real>& s) { return s.invMass > 0; };
-    const auto halt = [&](Index first, Index count) {
+    const auto halt = [&] {
         for (Index i = first; i < first + count; ++i) {
             BodyState<Real>& s = states_[i];
             BodyPush<Real>& p = pushes_[i];
@@ -230,7 +248,7 @@ void Solver<Real>::run()
             if (moves(s)) s.velocityX = s.velocityY = s.spin = 0;
         }
     };
-    const auto goOn = [&](Index first, Index count) {
+    const auto goOn = [&] {
         for (Index i = first; i < first + count; ++i) {
             BodyState<Real>& s = states_[i];
             BodyPush<Real>& p = pushes_[i];
@@ -242,15 +260,46 @@ void Solver<Real>::run()
             s.velocityX = p.beforeX, s.velocityY = p.beforeY, s.spin = p.beforeW;
         }
     };
-    pass(halt, [&](Node node) { warmNode(node); });
-    for (int i = 0; i < shape_.substeps; ++i) {
-        solveAll(true, [&](Index first, Index count) {
-            if (i == 0) goOn(first, count);
-            kernels_->integrateVelocities(&states_[first], &pushes_[first], count, constants_);
-        });
-        solveAll(false,
-                 [&](Index first, Index count) { kernels_->integratePositions(&states_[first], count, constants_.h); });
+    switch (pass.kind) {
+    case Pass::Kind::Warm: return halt();
+    case Pass::Kind::Push:
+        if (pass.first) goOn();
+        return kernels_->integrateVelocities(&states_[first], &pushes_[first], count, constants_);
+    case Pass::Kind::Relax: return kernels_->integratePositions(&states_[first], count, constants_.h);
     }
+}
+
+template <class Real>
+void Solver<Real>::moveBodies(const Pass& pass, Node node)
+{
+    const auto [first, last] = domains_.slotsOf(node);
+    if (pass.moves && first < last) moveBodies(pass, first, last - first);
+}
+
+template <class Real>
+void Solver<Real>::pass(const Pass& pass, Node node)
+{
+    if (domains_.isLeaf(node)) askForShared(node), moveBodies(pass, node);
+    switch (pass.kind) {
+    case Pass::Kind::Warm: return warmNode(node);
+    case Pass::Kind::Push: return pushNode(node);
+    case Pass::Kind::Relax: return relaxNode(node, pass);
+    }
+}
+
+template <class Real>
+void Solver<Real>::run()
+{
+    const auto passes = static_cast<std::size_t>(1 + shape_.substeps * (passes_ + relaxPasses()));
+    // What is driven through bodies of all domains belongs to none of them, and moves before they do.
+    const auto moveCommon = [&](std::size_t round) {
+        if (domains_.depth() > 0 && round < passes) moveBodies(passAt(round), Domains::kRoot);
+    };
+    moveCommon(0);
+    eachNode(passes, [&](std::size_t round, Node node) {
+        pass(passAt(round), node);
+        if (node == Domains::kRoot) moveCommon(round + 1);
+    });
     bounce();
 }
 
@@ -262,25 +311,30 @@ void Solver<Real>::warm()
 template <class Real>
 void Solver<Real>::push()
 {
-    solveAll(true, [](Index, Index) {});
+    eachNode(static_cast<std::size_t>(passes_), [&](std::size_t, Node node) { pushNode(node); });
 }
 template <class Real>
 void Solver<Real>::relax()
 {
-    solveAll(false, [](Index, Index) {});
+    const int passes = relaxPasses();
+    eachNode(static_cast<std::size_t>(passes), [&](std::size_t round, Node node) {
+        const int again = static_cast<int>(round);
+        relaxNode(node, {Pass::Kind::Relax, again, false, fresh_, again + 1 == passes});
+    });
+    fresh_ = false;
 }
 
 template <class Real>
 void Solver<Real>::bounce()
 {
     if (!bounces_) return;
-    for (int pass = 0; pass < kBouncePasses * std::min(passes_, 4); ++pass)
-        eachNode([&](Node node) {
-            eachColour(node, [&](Colour& c) {
-                kernels_->bounceContacts(states_.data(), c.contacts.data(), c.frictions.data(), c.bounces.data(),
-                                         c.contacts.size(), constants_);
-            });
+    const auto passes = static_cast<std::size_t>(kBouncePasses * std::min(passes_, 4));
+    eachNode(passes, [&](std::size_t, Node node) {
+        eachColour(node, [&](Colour& c) {
+            kernels_->bounceContacts(states_.data(), c.contacts.data(), c.frictions.data(), c.bounces.data(),
+                                     c.contacts.size(), constants_);
         });
+    });
 }
 
 template <class Real>

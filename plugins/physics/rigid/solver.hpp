@@ -249,9 +249,24 @@ private:
     /// Calls work(node), children before their parents, otherwise at once.
     template <class Work>
     void eachNode(Work&& work);
-    /// The same, but first calls bodies(first, last) for the slots of each domain.
-    template <class Bodies, class Work>
-    void pass(Bodies&& bodies, Work&& work);
+    /// The same, again and again: work(round, node).
+    template <class Work>
+    void eachNode(std::size_t rounds, Work&& work);
+    /// Once through all constraints.
+    struct Pass {
+        enum class Kind : std::uint8_t { Warm, Push, Relax } kind = Kind::Warm;
+        int again = 0;       // of the same kind in this substep
+        bool moves = false;  // are bodies moved before?
+        bool first = false;  // substep
+        bool last = false;   // of the substep
+    };
+    int relaxPasses() const;
+    Pass passAt(std::size_t) const;
+    void pass(const Pass&, Node);
+    void moveBodies(const Pass&, Index first, Index count);
+    void moveBodies(const Pass&, Node);
+    void listShared();
+    void askForShared(Node) const;
     /// Calls work(colour) for the colours of a node in turn.
     template <class Work>
     void eachColour(Node node, Work&& work);
@@ -312,9 +327,7 @@ private:
     void turnNode(Node);
     void foreseeNode(Node);
     void pushNode(Node);
-    void relaxNode(Node, int pass, bool last);
-    template <class Bodies>
-    void solveAll(bool push, Bodies&& bodies);
+    void relaxNode(Node, const Pass&);
     static std::size_t groups(std::size_t lanes) { return (lanes + kWidth - 1) / kWidth; }
 
     StepShape shape_;
@@ -344,7 +357,8 @@ private:
     std::vector<Block> blocks_;  // never shrinks, so that nothing is allocated in a steady step
     std::vector<TouchChange> changes_;
     Settling settling_[Domains::kNodes + 1];
-    double lastH_ = 0;  // seconds: the impulses are of substeps of this
+    std::vector<Index> shared_[Domains::kNodes + 1];  // [leaves] slots whose bodies others push as well
+    double lastH_ = 0;                                // seconds: the impulses are of substeps of this
     float hardest_ = 0;
     bool foresees_ = false;
     bool bounces_ = false;  // does any contact have restitution?
@@ -361,6 +375,24 @@ void Solver<Real>::eachNode(Work&& work)
     const auto nodeAt = [](int of, std::size_t i) { return static_cast<Node>((std::size_t{1} << of) + i); };
     pool_->run(std::size_t{1} << level, [&](std::size_t i) { domains_.below(nodeAt(level, i), work); });
     while (level-- > 0) pool_->run(std::size_t{1} << level, [&](std::size_t i) { work(nodeAt(level, i)); });
+}
+
+template <class Real>
+template <class Work>
+void Solver<Real>::eachNode(std::size_t rounds, Work&& work)
+{
+    int top = 0;  // level from which on threads go through the tree apart; the caller goes through what lies above
+    while (top < domains_.depth() && 1 << top < pool_->threads()) ++top;
+    const auto nodeAt = [](int level, std::size_t i) { return static_cast<Node>((std::size_t{1} << level) + i); };
+    pool_->rounds(
+        rounds, std::size_t{1} << top,
+        [&](std::size_t round, std::size_t i) {
+            domains_.below(nodeAt(top, i), [&](Node node) { work(round, node); });
+        },
+        [&](std::size_t round) {
+            for (int level = top; level-- > 0;)
+                for (std::size_t i = 0; i < std::size_t{1} << level; ++i) work(round, nodeAt(level, i));
+        });
 }
 
 extern template class Solver<float>;

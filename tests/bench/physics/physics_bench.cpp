@@ -5,11 +5,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace jet::bench {
 
@@ -29,6 +35,36 @@ std::string processor()
     for (std::string line; std::getline(info, line);)
         if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
     return "not known";
+}
+
+/// Nanoseconds that a line of memory takes to another thread and back, the least of some tries: by it may be judged
+/// what more threads could gain here. Some 100 where processors share a cache, 500 and more where they do not.
+double lineRoundTrip()
+{
+    constexpr std::uint32_t kTrips = 2000, kOver = ~0U;
+    constexpr int kTries = 20;
+    constexpr auto kMost = std::chrono::milliseconds(20);  // a try, where others have the processors
+    using Clock = std::chrono::steady_clock;
+    alignas(128) std::atomic<std::uint32_t> line = 0;
+    // Odd numbers are answered with the next.
+    std::thread other([&line] {
+        for (std::uint32_t value = 0; (value = line.load(std::memory_order_acquire)) != kOver;)
+            if (value % 2 == 1) line.store(value + 1, std::memory_order_release);
+    });
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kTries; ++i) {
+        const auto start = Clock::now();
+        std::uint32_t trips = 0;
+        for (; trips < kTrips && Clock::now() - start < kMost; ++trips) {
+            line.store(1, std::memory_order_release);
+            while (line.load(std::memory_order_acquire) != 2) {
+            }
+        }
+        least = std::min(least, std::chrono::duration<double, std::nano>(Clock::now() - start).count() / trips);
+    }
+    line = kOver;
+    other.join();
+    return least;
 }
 
 struct Entry {
@@ -209,14 +245,22 @@ int run(Options& options)
     std::printf("%s, %u threads; JET: %s, %d thread%s\n", processor().c_str(), std::thread::hardware_concurrency(),
                 (options.jet.simd.empty() ? widestSimd() : options.jet.simd).c_str(), options.jet.threads,
                 options.jet.threads == 1 ? "" : "s");
+    // Before the scenes and after them: processors of a virtual machine may be moved meanwhile.
+    std::vector<double> trips;
+    const auto lookAtLines = [&] {
+        if (options.jet.threads == 1 || std::thread::hardware_concurrency() == 1) return;
+        trips.push_back(lineRoundTrip());
+        std::printf("a line of memory goes to another thread and back in %.0f ns\n", trips.back());
+    };
+    lookAtLines();
     for (const std::string& name : options.scenes) outcome.add(compare(makeScene(name), options, scenes));
     for (const std::string& file : options.files) outcome.add(compare(loadScene(file), options, scenes));
+    lookAtLines();
     if (!options.summary.empty()) {
-        const nlohmann::ordered_json all = {{"processor", processor()},
-                                            {"processor_threads", std::thread::hardware_concurrency()},
-                                            {"widest_simd", widestSimd()},
-                                            {"jet_threads", options.jet.threads},
-                                            {"scenes", scenes}};
+        const nlohmann::ordered_json all = {
+            {"processor", processor()},    {"processor_threads", std::thread::hardware_concurrency()},
+            {"widest_simd", widestSimd()}, {"jet_threads", options.jet.threads},
+            {"line_round_trip_ns", trips}, {"scenes", scenes}};
         std::ofstream out(options.summary);
         out << all.dump(2) << "\n";
         if (!out) throw std::runtime_error("The summary could not be written to " + options.summary + ".");

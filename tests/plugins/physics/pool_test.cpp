@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace jet::physics::test {
@@ -90,6 +91,80 @@ TEST(Pool, WhatIsBesideALoopIsDoneOnceAndByTheCallerWhereTheLoopIsShort)
                 EXPECT_EQ(by, std::this_thread::get_id());
             }
         }
+    }
+}
+
+TEST(Pool, ARoundBeginsWhenAllOfTheLastOneIsDoneAndTheCallerHasBeenThere)
+{
+    const auto caller = std::this_thread::get_id();
+    for (const int threads : {1, 2, 3, 7}) {
+        Pool pool;
+        pool.setThreads(threads);
+        for (const std::size_t blocks : {0U, 1U, 2U, 4U, 9U, 40U})
+            for (const std::size_t rounds : {0U, 1U, 2U, 300U}) {
+                // A block is done once a round, and reads what others wrote in the round before and then the caller.
+                std::vector<std::size_t> done(blocks, 0), next(blocks, 0);
+                std::size_t between = 0;
+                pool.rounds(
+                    rounds, blocks,
+                    [&](std::size_t round, std::size_t block) {
+                        EXPECT_EQ(between, round);
+                        next[block] += done[(block + 1) % blocks] == round ? 1 : 1000000;
+                    },
+                    [&](std::size_t round) {
+                        EXPECT_EQ(std::this_thread::get_id(), caller);
+                        EXPECT_EQ(round, between++);
+                        done = next;
+                    });
+                EXPECT_EQ(between, rounds);
+                ASSERT_EQ(done, std::vector<std::size_t>(blocks, rounds)) << threads << " threads, " << blocks;
+            }
+    }
+}
+
+TEST(Pool, ABlockWhoseThreadIsLateIsDoneByAnother)
+{
+    Pool pool;
+    pool.setThreads(2);
+    const auto caller = std::this_thread::get_id();
+    // In the second round the worker stays in its first block until all others are done: the caller does its part too.
+    std::vector<std::thread::id> by(8);
+    std::atomic<int> done = 0;
+    std::atomic<bool> begun = false;
+    const auto until = [giveUp = std::chrono::steady_clock::now() + std::chrono::seconds(20)](auto&& holds) {
+        while (!holds() && std::chrono::steady_clock::now() < giveUp) std::this_thread::yield();
+    };
+    pool.rounds(
+        3, by.size(),
+        [&](std::size_t round, std::size_t block) {
+            if (round != 1) return;
+            by[block] = std::this_thread::get_id();
+            if (by[block] == caller) {
+                until([&] { return begun.load(); });
+            } else {
+                begun = true;
+                until([&] { return done >= 7; });
+            }
+            ++done;
+        },
+        [](std::size_t) {});
+    EXPECT_EQ(done, 8);
+    EXPECT_EQ(std::count(by.begin(), by.end(), caller), 7);
+}
+
+TEST(Pool, RoundsAndLoopsMayFollowEachOther)
+{
+    for (const int threads : {2, 3}) {
+        Pool pool;
+        pool.setThreads(threads);
+        std::atomic<int> sum = 0;
+        for (int again = 0; again < 300; ++again) {
+            const Pool::Attention step(pool);
+            pool.rounds(
+                5, 2, [&](std::size_t, std::size_t) { ++sum; }, [&](std::size_t) { sum += 10; });
+            pool.run(7, [&](std::size_t) { sum += 100; });
+        }
+        EXPECT_EQ(sum, 300 * (5 * 2 + 5 * 10 + 7 * 100));
     }
 }
 
