@@ -148,7 +148,7 @@ void PhysicsChecks::check(const WorldSettings& settings) const
     atLeast("the world", "angular damping", settings.angularDamping, 0);
     within("the world", "the number of threads", settings.threads, 1, kMostThreads);
     within("the world", "the number of substeps", settings.substeps, 0, kMostSubsteps);
-    if (settings.precision > Precision::Single || settings.simd > Simd::Avx2 ||
+    if (settings.precision > Precision::Single || settings.simd > Simd::Avx512 ||
         settings.method > Method::SemiImplicitEuler)
         fail("the world: its precision, instructions or method is none that there is.");
     const std::size_t count = settings.materialCount;

@@ -160,6 +160,11 @@ TEST(PhysicsChecks, KindsThatThereAreNotAreRefused)
         if (which == 2) settings.method = static_cast<Method>(9);
         EXPECT_NE(refusalOf([&] { kChecks.check(settings); }), "") << which;
     }
+    for (const Simd simd : {Simd::Automatic, Simd::Sse2, Simd::Avx2, Simd::Avx512}) {
+        WorldSettings settings;
+        settings.simd = simd;
+        EXPECT_EQ(refusalOf([&] { kChecks.check(settings); }), "");
+    }
 }
 
 TEST(PhysicsChecks, WhatTheContractDeclaresByDefaultIsTaken)

@@ -26,9 +26,13 @@ const Kernels<double>& kernels<double>(KernelChoice choice)
 
 KernelChoice choiceOf(const WorldSettings& settings)
 {
-    return settings.simd == Simd::Automatic ? KernelChoice::Best
-           : settings.simd == Simd::Avx2    ? KernelChoice::Avx2
-                                            : KernelChoice::Sse2;
+    switch (settings.simd) {
+    case Simd::Sse2: return KernelChoice::Sse2;
+    case Simd::Avx2:
+    case Simd::Avx512: return KernelChoice::Avx2;  // nothing of rigid bodies is written for AVX-512
+    case Simd::Automatic: break;
+    }
+    return KernelChoice::Best;
 }
 
 const Looker& looker(KernelChoice choice) { return wide(choice) ? avx2::pairLooker : sse2::pairLooker; }

@@ -155,7 +155,7 @@ const Kernels& kernelsAvx512();
 bool hasAvx2();
 /// And AVX-512, of a kind that does not slow the rest down: since Ice Lake and Zen 4?
 bool hasAvx512();
-/// Automatic: the widest this processor has; Avx2: no wider than that.
+/// Those asked for, or the widest before them that this processor has; Automatic: the widest.
 const Kernels& kernelsFor(Simd);
 
 }  // namespace jet::physics::soft

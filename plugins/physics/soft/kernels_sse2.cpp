@@ -133,7 +133,7 @@ bool hasAvx512()
 
 const Kernels& kernelsFor(Simd simd)
 {
-    if (simd == Simd::Automatic && hasAvx512()) return kernelsAvx512();
+    if ((simd == Simd::Automatic || simd == Simd::Avx512) && hasAvx512()) return kernelsAvx512();
     return simd != Simd::Sse2 && hasAvx2() ? kernelsAvx2() : kernelsSse2();
 }
 

@@ -47,8 +47,8 @@ enum class Precision : std::uint8_t {
 };
 
 /// Instructions of the wide kernels; every choice gives the same bits. Automatic takes the widest of the processor's
-/// that there is code for (soft bodies: AVX-512, too); a choice that it has not falls to the next narrower.
-enum class Simd : std::uint8_t { Automatic, Sse2, Avx2 };
+/// that there is code for; a choice that it has not, or that nothing is written for, falls to the next narrower.
+enum class Simd : std::uint8_t { Automatic, Sse2, Avx2, Avx512 };
 
 /// How a world advances.
 enum class Method : std::uint8_t {

@@ -13,10 +13,12 @@ namespace {
 
 Vec2 vec(const Point& p) { return {p.x, p.y}; }
 
-/// AVX-512 is what "automatic" takes where there is code for it and a processor that has it.
 Simd simdOf(const std::string& name)
 {
-    return name == "avx2" ? Simd::Avx2 : name == "sse2" ? Simd::Sse2 : Simd::Automatic;
+    return name == "avx512" ? Simd::Avx512
+           : name == "avx2" ? Simd::Avx2
+           : name == "sse2" ? Simd::Sse2
+                            : Simd::Automatic;
 }
 
 class JetEngine final : public Engine {

@@ -65,6 +65,18 @@ World anyWorld(unsigned seed)
     return world;
 }
 
+TEST(Sift, WhereNothingIsWrittenForAvx512Avx2IsTaken)
+{
+    const auto choice = [](Simd simd) {
+        WorldSettings settings;
+        settings.simd = simd;
+        return choiceOf(settings);
+    };
+    EXPECT_EQ(choice(Simd::Avx512), choice(Simd::Avx2));
+    EXPECT_EQ(&sieve(choice(Simd::Avx512)), &sieve(choice(Simd::Automatic)));
+    if (hasAvx2()) EXPECT_NE(&sieve(choice(Simd::Avx512)), &sieve(choice(Simd::Sse2)));
+}
+
 TEST(Sift, EightPairsAreSeenAsEachOfThemIs)
 {
     std::size_t apartCount = 0, count = 0;

@@ -115,6 +115,14 @@ std::vector<float> numbers(std::size_t count, double from, double to, Random& nu
 
 }  // namespace
 
+TEST(SoftKernels, AreThoseAskedForOrTheNextNarrowerThatThereAre)
+{
+    EXPECT_EQ(&kernelsFor(Simd::Sse2), &kernelsSse2());
+    EXPECT_EQ(&kernelsFor(Simd::Avx2), hasAvx2() ? &kernelsAvx2() : &kernelsSse2());
+    EXPECT_EQ(&kernelsFor(Simd::Avx512), hasAvx512() ? &kernelsAvx512() : &kernelsFor(Simd::Avx2));
+    EXPECT_EQ(&kernelsFor(Simd::Automatic), &kernelsFor(Simd::Avx512));
+}
+
 TEST(SoftKernels, EveryInstructionSetGivesTheSameBits)
 {
     if (!hasAvx2()) GTEST_SKIP() << "this processor has one instruction set only";
