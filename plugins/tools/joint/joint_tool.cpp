@@ -1,71 +1,29 @@
 // Joint tool: drag, or click twice, from one body to another or to the background; a Joint item holds the two at play.
 // Ends snap to the middles and points of bodies (Alt: freely), Esc gives up.
-#include <jet/body_point.hpp>
 #include <jet/catalog.hpp>
+#include <jet/line_tool.hpp>
 #include <jet/plugin.hpp>
-#include <jet/tool.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 namespace {
 
-constexpr double kStill = 3;  // pixels: a press that moves less is a click
-
-class JointTool final : public jet::Tool {
+class JointTool final : public jet::LineTool {
 public:
-    using Tool::Tool;
-
-    void activate() override
+    explicit JointTool(jet::ToolHost& host)
+        : LineTool(host, "Drag from one body to another, or to the background; or click both. Alt: without snapping.")
     {
-        host().setCursor("cross");
-        host().showStatus("Drag from one body to another, or to the background; or click both. Alt: without snapping.");
-    }
-    void deactivate() override
-    {
-        cancel();
-        hover_.reset();
     }
 
-    void press(const jet::PointerEvent& event) override
+    std::string describe(const Line& line) const override
     {
-        if (event.button != jet::PointerButton::Left) return;
-        pressedAt_ = event.pixels;
-        pressed_ = true;
-        second_ = start_.has_value();
-        if (!second_) start_ = endAt(event);
-        follow(event);
+        return option("kind") + ": " + words(line.from) + " – " + words(line.to);
     }
-    void drag(const jet::PointerEvent& event) override { follow(event); }
-    void move(const jet::PointerEvent& event) override { follow(event); }
-
-    void release(const jet::PointerEvent& event) override
+    void finish(const Line& line) override { create(line.from, line.to); }
+    void paintLine(const Line& line, jet::Painter& painter) const override
     {
-        if (!pressed_ || !start_) return;
-        pressed_ = false;
-        follow(event);
-        if (!second_ && (event.pixels - pressedAt_).norm() < kStill) return;  // the other end is to be clicked
-        const jet::BodyPoint from = *start_, to = *hover_;
-        cancel();
-        create(from, to);
-    }
-
-    bool cancel() override
-    {
-        if (!start_) return false;
-        start_.reset();
-        pressed_ = false;
-        host().showStatus("");
-        host().requestRepaint();
-        return true;
-    }
-
-    void paint(jet::Painter& painter) const override
-    {
-        if (start_ && hover_) painter.stroke(pathOf(*start_, *hover_), host().layerPen());
-        if (start_) jet::paintBodyPoint(*start_, host(), painter);
-        if (hover_ && (hover_->snapped || start_)) jet::paintBodyPoint(*hover_, host(), painter);
+        painter.stroke(pathOf(line.from, line.to), host().layerPen());
     }
 
     const jet::PropertyTable& options() const override
@@ -84,22 +42,7 @@ public:
 private:
     std::string option(const char* id) const { return host().options().get(id, options()).as<std::string>(); }
 
-    jet::BodyPoint endAt(const jet::PointerEvent& event) const
-    {
-        const bool snap = host().options().get("snap", options()).as<bool>() && !event.modifiers.alt;
-        return jet::bodyPointAt(host(), event.scene, snap);
-    }
-
-    void follow(const jet::PointerEvent& event)
-    {
-        hover_ = endAt(event);
-        if (start_) host().showStatus(option("kind") + ": " + words(*start_) + " – " + words(*hover_));
-        host().requestRepaint();
-    }
-
     static std::string words(const jet::BodyPoint& end) { return end.isBackground() ? "background" : end.name; }
-
-    // --- the joint
 
     bool hasPivot() const
     {
@@ -157,11 +100,6 @@ private:
 
     /// Wheels hang below what they carry.
     static void setAxis(jet::Transaction& edit, const jet::Item& joint) { edit.set(joint, "axis", jet::Vec2(0, 1)); }
-
-    std::optional<jet::BodyPoint> start_, hover_;
-    jet::Vec2 pressedAt_{0, 0};  // pixels
-    bool pressed_ = false;
-    bool second_ = false;  // is this the press that ends it?
 };
 
 }  // namespace

@@ -141,9 +141,9 @@ TEST_F(ForceToolTest, ThePreviewIsAnArrowFromThePoint)
     EXPECT_EQ(strokes().size(), 2u) << "where a press would snap";
     force().press({10, 10}).move({90, 10});
     const auto drawn = strokes();
-    ASSERT_EQ(drawn.size(), 4u) << "ring, dot, shaft, head";
-    EXPECT_EQ(drawn[2].path, Path::line({10, 10}, {90, 10}));
-    EXPECT_EQ(drawn[3].path.segment(1).point, Vec2(90, 10));
+    ASSERT_EQ(drawn.size(), 4u) << "shaft, head, ring, dot";
+    EXPECT_EQ(drawn[0].path, Path::line({10, 10}, {90, 10}));
+    EXPECT_EQ(drawn[1].path.segment(1).point, Vec2(90, 10));
     force().release();
 }
 
