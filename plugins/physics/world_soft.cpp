@@ -58,6 +58,7 @@ void World::cutTorn()
     if (!tears_.due(state_, springs_)) return;
     report();
     tears_.look(state_, springs_);
+    softJoints_.keepPieces(state_);
     const auto isCut = [&](Index body) { return tears_.isCut(body); };
     softContacts_.forget(state_, isCut);
     auto& points = contacts_.points;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <thread>
@@ -345,6 +346,56 @@ TEST_F(HandTest, ASoftBallFollowsAFastHandWithoutTurningInsideOut)
                 EXPECT_LT((simulation->held()->at - simulation->held()->hand).norm(), 6)
                     << speed << " from " << grip.transpose() << " at " << gravity;
             }
+}
+
+/// A strip that is drawn away by one end, faster than the rest of it can follow.
+TEST_F(HandTest, WhatTearsWhileItIsHeldLeavesAPieceInTheHandAndEveryStateGoesOnBitEqual)
+{
+    weightless();
+    const ItemId strip = body(Path::rectangle({{0, 0}, {240, 40}}), "in-path-body");
+    auto edit = scene_.items().begin("Tears");
+    edit.setEffect(*scene_.items().find(strip), 0, "tear-ratio", 1.3);
+    edit.commit();
+    const auto act = [&](Simulation& s) {
+        const auto step = static_cast<double>(s.stepCount());
+        if (s.stepCount() == 10) {
+            EXPECT_EQ(s.grab({10, 20}), strip);
+        }
+        if (s.stepCount() > 10 && s.stepCount() < 60) s.drag({10 - 15 * (step - 10), 20});
+        if (s.stepCount() == 60) s.letGo();
+        s.step();
+    };
+    const auto torn = [&](const Simulation& s) {
+        const auto pieces = s.world().pieces(s.bodyOf(strip));
+        return std::any_of(pieces.begin(), pieces.end(), [](std::uint32_t piece) { return piece > 0; });
+    };
+    const auto simulation = start();
+    std::vector<std::vector<std::byte>> states;
+    std::vector<std::uint64_t> hashes;
+    std::size_t tear = 0;
+    for (std::size_t i = 0; i < 90; ++i) {
+        states.push_back(simulation->save()), hashes.push_back(simulation->hash());
+        if (tear == 0 && torn(*simulation)) tear = i;
+        if (simulation->held()) {
+            EXPECT_EQ(simulation->held()->item, strip);
+            EXPECT_LT((simulation->held()->at - simulation->held()->hand).norm(), 80) << i;
+        }
+        act(*simulation);
+    }
+    ASSERT_GT(tear, 11U);
+    ASSERT_LT(tear, 60U) << "it was to tear while it is held";
+    for (const std::size_t from : {tear + 3, tear - 1, tear, std::size_t{70}, std::size_t{5}}) {
+        const auto fresh = start();
+        for (Simulation* one : {simulation.get(), fresh.get()}) {
+            one->restore(states[from]);
+            EXPECT_EQ(torn(*one), from >= tear);
+            EXPECT_EQ(one->held().has_value(), from > 10 && from <= 60);
+            for (std::size_t i = from; i < 90; ++i) {
+                ASSERT_EQ(one->hash(), hashes[i]) << "from " << from << ", step " << i;
+                act(*one);
+            }
+        }
+    }
 }
 
 // --- the center

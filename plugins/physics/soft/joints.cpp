@@ -35,12 +35,30 @@ std::string nameOf(JointDef::Kind kind)
     }
 }
 
-/// Those within the radius; without one the particle at the point, or those nearest to it.
+/// By node, from the body's first; empty while it is whole.
+std::vector<Index> piecesOf(const State& state, const BodyRecord& body)
+{
+    const std::vector<Index>& byPoint = body.soft->pieces;
+    std::vector<Index> pieces(byPoint.empty() ? 0 : body.nodes.count);
+    for (std::size_t p = 0; p < byPoint.size(); ++p)
+        pieces[state.points.node[body.points.first + p] - body.nodes.first] = byPoint[p];
+    return pieces;
+}
+
+/// Those within the radius; without one the particle at the point, or those nearest to it. All of one piece: that of
+/// the nearest.
 std::vector<Index> particlesAt(const State& state, const BodyRecord& body, const Anchor& anchor)
 {
     std::vector<Index> nodes(body.nodes.count);
     std::iota(nodes.begin(), nodes.end(), body.nodes.first);
     const auto away = [&](Index n) { return (state.nodes.position[n] - anchor.point).squaredNorm(); };
+    if (const std::vector<Index> pieces = piecesOf(state, body); !pieces.empty()) {
+        const auto pieceOf = [&](Index n) { return pieces[n - body.nodes.first]; };
+        const Index nearest =
+            *std::min_element(nodes.begin(), nodes.end(), [&](Index p, Index q) { return away(p) < away(q); });
+        nodes.erase(std::remove_if(nodes.begin(), nodes.end(), [&](Index n) { return pieceOf(n) != pieceOf(nearest); }),
+                    nodes.end());
+    }
     if (anchor.radius > 0) {
         nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
                                    [&](Index n) { return away(n) > anchor.radius * anchor.radius; }),
@@ -78,6 +96,52 @@ Joints::Hold Joints::hold(const State& state, const Anchor& anchor)
     hold.angle = pose.angle;
     hold.local = unrotated(pose.rotation, anchor.point - pose.centre);
     return hold;
+}
+
+void Joints::keepPieces(const State& state)
+{
+    for (Held& held : joints_) {
+        Joint& joint = held.joint;
+        if (!isPull(joint.def) || !joint.lives()) continue;
+        Hold& end = held.a.background() ? held.b : held.a;
+        if (!end.rigid)
+            keepPiece(state, joint, end, state.bodies[(held.a.background() ? joint.def.b : joint.def.a).body]);
+    }
+}
+
+/// That of the particle which was nearest to the point when it was taken hold of. Pieces only fall into smaller ones,
+/// so what was let go is never held again; of the larger part of a patch that would not be so.
+void Joints::keepPiece(const State& state, Joint& joint, Hold& hold, const BodyRecord& body)
+{
+    const std::vector<Index> pieces = piecesOf(state, body);
+    if (pieces.empty()) return;
+    const auto pieceOf = [&](std::size_t i) { return pieces[hold.nodes[i] - body.nodes.first]; };
+    const auto away = [&](std::size_t i) { return (hold.rest[i] - hold.local).squaredNorm(); };
+    std::size_t grip = 0;
+    for (std::size_t i = 1; i < hold.nodes.size(); ++i)
+        if (away(i) < away(grip)) grip = i;
+    Hold kept = hold;
+    kept.nodes.clear(), kept.rest.clear();
+    double whole = 0, mass = 0, inertia = 0;
+    Vec2 centre(0, 0);
+    for (std::size_t i = 0; i < hold.nodes.size(); ++i) {
+        const double own = state.nodes.mass[hold.nodes[i]];
+        whole += own;
+        if (pieceOf(i) != pieceOf(grip)) continue;
+        kept.nodes.push_back(hold.nodes[i]), kept.rest.push_back(hold.rest[i]);
+        mass += own, centre += own * hold.rest[i];
+    }
+    if (kept.nodes.size() == hold.nodes.size()) return;
+    centre /= mass;
+    for (std::size_t i = 0; i < kept.nodes.size(); ++i) {
+        kept.rest[i] -= centre;
+        inertia += state.nodes.mass[kept.nodes[i]] * kept.rest[i].squaredNorm();
+    }
+    kept.gyration = inertia / mass;
+    // A single particle does not turn, and so has no place beside it.
+    kept.local = kept.turns() ? Vec2(hold.local - centre) : Vec2(0, 0);
+    for (double& impulse : joint.impulse) impulse *= mass / whole;
+    hold = std::move(kept);
 }
 
 void Joints::requireDirection(const JointDef& def, const Hold& a, const Hold& b)

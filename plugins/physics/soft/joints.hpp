@@ -129,6 +129,9 @@ public:
                 if (!isPull(held.joint.def) || !fits(state, held)) RestoreArchive::fail();
             });
     }
+    /// A body fell into pieces: of what a pull holds it keeps the piece its point lies in. What else joints hold they
+    /// keep as a whole: their patches are no part of a state.
+    void keepPieces(const State&);
     void dropPulls()
     {
         physics::dropPulls(joints_, [](const Held& held) { return isPull(held.joint.def); });
@@ -192,6 +195,7 @@ private:
     }
     static bool fits(const State&, const Held&);
     static Hold hold(const State&, const Anchor&);
+    static void keepPiece(const State&, Joint&, Hold&, const BodyRecord&);
     static void requireDirection(const JointDef&, const Hold& a, const Hold& b);
     /// moved: seconds by which particles moved since the hold's angle was known.
     static Pose poseOf(const State&, const Hold&, double moved = 0);

@@ -1,5 +1,7 @@
-// Soft bodies that tear: where, into what, and what the pieces do.
+// Soft bodies that tear: where, into what, what the pieces do, and what a hand holds of them.
 #include "lattices.hpp"
+
+#include <jet/physics_removal.hpp>
 
 #include <random>
 #include <set>
@@ -43,6 +45,43 @@ void pullApart(PhysicsWorld& world, const SoftBodyDef& def, double force)
         world.addForce({{0, def.particles[at(0, row)]}, {-force, 0}});
         world.addForce({{0, def.particles[at(kColumns - 1, row)]}, {force, 0}});
     }
+}
+
+JointDef pullAt(const Vec2& point, double radius)
+{
+    JointDef def;
+    def.kind = JointDef::Kind::Mouse;
+    def.a.point = point, def.b = {0, point, radius};
+    def.hertz = 5, def.dampingRatio = 0.9, def.maxForce = 1e5;
+    return def;
+}
+
+/// Its left end is fixed to the background.
+std::unique_ptr<PhysicsWorld> hungStrip()
+{
+    auto world = makeWorld({0, 0});
+    world->addSoftBody(strip(1.2));
+    JointDef wall;
+    wall.kind = JointDef::Kind::Weld;
+    wall.a.point = {0, 15}, wall.b = {0, {0, 15}, 20};
+    world->addJoint(wall);
+    return world;
+}
+
+/// Where the particles of some columns are, on average.
+Vec2 middle(const PhysicsWorld& world, int from, int to)
+{
+    const auto points = pointsOf(world, 0);
+    Vec2 sum(0, 0);
+    for (int row = 0; row < kRows; ++row)
+        for (int column = from; column <= to; ++column) sum += points[at(column, row)];
+    return sum / (kRows * (to - from + 1));
+}
+
+std::size_t piecesOf(const PhysicsWorld& world)
+{
+    const auto pieces = world.pieces(0);
+    return pieces.empty() ? 1 : *std::max_element(pieces.begin(), pieces.end()) + 1;
 }
 
 }  // namespace
@@ -256,6 +295,114 @@ TEST(Tears, PiecesHaveTheirFleshOnTheSideTheWholeHadIt)
         }
     }
     EXPECT_GT(pieces, 600);
+}
+
+// The middle column of cells lies between x = 60 and 70: a hand at x = 70 holds the right piece, and some of the left.
+constexpr int kTaken = 5, kGivenUp = 130;
+const Vec2 kGrip(70, 15);
+
+TEST(Tears, AHandKeepsThePieceThatItsPointLiesIn)
+{
+    auto world = hungStrip();
+    const JointHandle hand = world->addJoint(pullAt(kGrip, 30));
+    for (int i = 0; i < 240; ++i) {
+        world->setJointTarget(hand, kGrip + Vec2(std::min(2.0 * i, 300.0), 0));
+        world->step(kStep);
+        ASSERT_TRUE(allFinite(*world)) << i;
+    }
+    ASSERT_EQ(piecesOf(*world), 2u);
+    // Of the columns of the right piece it holds 7 to 10, whose middle was 15 from the hand.
+    EXPECT_NEAR(world->joint(hand).pointB.x(), 370, 0.5);
+    EXPECT_NEAR(middle(*world, 7, 10).x(), 385, 1);
+    EXPECT_NEAR(middle(*world, 0, 6).x(), 30, 1) << "nobody holds the left one, but the wall";
+    const Vec2 left = middle(*world, 0, 6);
+    for (int i = 0; i < 120; ++i) world->setJointTarget(hand, {370, 15 + 3.0 * i}), world->step(kStep);
+    EXPECT_LT((middle(*world, 0, 6) - left).norm(), 3) << "it swings, wherever the right one is drawn";
+    world->removeJoint(hand);
+    run(*world, 1);
+    EXPECT_GT(middle(*world, 7, 12).y(), 372 + 80) << "it flies on";
+}
+
+TEST(Tears, AnyStateOfADragThatTearsABodyGoesOnBitEqual)
+{
+    std::vector<std::vector<std::byte>> states;
+    std::vector<std::size_t> pieces;
+    JointHandle hand = kNoHandle;
+    const auto act = [&](PhysicsWorld& world, int step) {
+        if (step == kTaken) hand = world.addJoint(pullAt(kGrip, 30));
+        if (step > kTaken && step < kGivenUp) world.setJointTarget(hand, kGrip + Vec2(1.5 * step, 0.3 * step));
+        if (step == kGivenUp) world.removeJoint(hand);
+        world.step(kStep);
+    };
+    auto world = hungStrip();
+    for (int step = 0; step < kGivenUp + 20; ++step) {
+        states.push_back(world->save()), pieces.push_back(piecesOf(*world));
+        act(*world, step);
+    }
+    const auto last = world->save();
+    const auto torn = static_cast<int>(std::find(pieces.begin(), pieces.end(), 2u) - pieces.begin());
+    ASSERT_GT(torn, kTaken + 2);
+    ASSERT_LT(torn, kGivenUp - 10);
+    auto other = hungStrip();
+    for (const int from : {torn + 5, torn - 2, torn, kGivenUp + 5, torn - 1, 0, torn + 1, kTaken + 1}) {
+        for (PhysicsWorld* again : {world.get(), other.get()}) {
+            again->restore(states[from]);
+            ASSERT_EQ(piecesOf(*again), pieces[from]);
+            for (int step = from; step < kGivenUp + 20; ++step) {
+                ASSERT_EQ(again->save(), states[step]) << "from " << from << ", step " << step << ", torn " << torn;
+                act(*again, step);
+            }
+            ASSERT_EQ(again->save(), last) << from;
+        }
+    }
+}
+
+TEST(Tears, OfABodyThatFellApartAHandTakesOnePiece)
+{
+    auto world = makeWorld({0, 0});
+    const SoftBodyDef def = strip(1.2);
+    world->addSoftBody(def);
+    pullApart(*world, def, 1500);
+    for (int i = 0; i < 300 && piecesOf(*world) < 2; ++i) world->step(kStep);
+    ASSERT_EQ(piecesOf(*world), 2u);
+    const Vec2 grip = middle(*world, 7, 7), left = middle(*world, 0, 6);
+    EXPECT_LT((grip - middle(*world, 6, 6)).norm(), 40) << "within the radius lie both";
+    const JointHandle hand = world->addJoint(pullAt(grip, 60));
+    world->setJointTarget(hand, grip + Vec2(0, 500));
+    world->step(kStep);
+    EXPECT_GT(middle(*world, 7, 9).y() - grip.y(), 1);
+    EXPECT_NEAR(middle(*world, 0, 6).y(), left.y(), 1e-3);
+}
+
+TEST(Tears, OfABodyThatFallsToDustAHandHoldsOneParticleUntilItLetsGo)
+{
+    auto world = hungStrip();
+    const JointHandle hand = world->addJoint(pullAt(kGrip, 30));
+    run(*world, 0.5);
+    const auto before = world->save();
+    world->setSprings(0, 300, 0.5, 0.5);  // all of them are longer than half of what they were
+    const Vec2 target(70, 215);
+    world->setJointTarget(hand, target);
+    for (int i = 0; i < 120; ++i) {
+        world->step(kStep);
+        ASSERT_TRUE(allFinite(*world)) << i;
+    }
+    EXPECT_EQ(piecesOf(*world), static_cast<std::size_t>(kColumns * kRows));
+    EXPECT_NEAR((world->joint(hand).pointB - target).norm(), 0, 0.1);
+    int there = 0;
+    for (const Vec2& p : pointsOf(*world, 0)) there += (p - target).norm() < 0.1;
+    EXPECT_EQ(there, 1);
+    const auto dust = world->save();
+    run(*world, 0.5);
+    const auto later = world->hash();
+    world->restore(dust);
+    run(*world, 0.5);
+    EXPECT_EQ(world->hash(), later);
+    world->removeJoint(hand);
+    run(*world, 0.5);
+    world->restore(before);
+    EXPECT_EQ(world->save(), before);
+    EXPECT_TRUE(removal(*world).hasJoint(hand));
 }
 
 TEST(Tears, GasEscapesFromABodyThatIsCutOpen)
