@@ -192,6 +192,42 @@ Outcome mouse(const Lab& lab)
     return measured((at(*world, body) - Vec2(40, -30)).norm(), "units off its target", 0.2);
 }
 
+/// What a hand does that drags a body: far away it pulls with all its force, an even pointer it follows as its damping
+/// says, and between grabs it is not there.
+Outcome dragging(const Lab& lab)
+{
+    const auto world = lab.world({0, 0});
+    const BodyHandle body = world->addRigidBody(disc({0, 0}, 5, 2));
+    const double hertz = 5, zeta = 0.9, speed = 60;
+    JointDef def = joint(Kind::Mouse, background({0, 0}), on(body, {0, 0}));
+    def.hertz = hertz, def.dampingRatio = zeta, def.maxForce = 100;
+    const JointHandle weak = world->addJoint(def);
+    world->setJointTarget(weak, {1000, 0});
+    run(*world, 1);
+    double off = percentOff(velocity(*world, body).x(), 100 * 1.0 / 2);
+    world->removeJoint(weak);
+    const Vec2 flying = velocity(*world, body);
+    run(*world, 0.5);
+    if ((velocity(*world, body) - flying).norm() > 0.01) return holds(false, "what is let go does not fly on");
+    // The lag of a damped spring at an even speed: 2 zeta v / w.
+    def.a = background(at(*world, body)), def.b = on(body, at(*world, body)), def.maxForce = 1e6;
+    const JointHandle strong = world->addJoint(def);
+    Vec2 pointer = at(*world, body);
+    for (int i = 0; i < 120; ++i) {
+        pointer += Vec2(0, speed * kStep);
+        world->setJointTarget(strong, pointer);
+        world->step(kStep);
+    }
+    // The pointer moves in steps, and the body in between.
+    const double lag = 2 * zeta * speed / (2 * kPi * hertz), behind = pointer.y() - at(*world, body).y();
+    if (std::abs(behind - lag) > speed * kStep)
+        return holds(false,
+                     "it follows a pointer " + std::to_string(behind) + " units behind, not " + std::to_string(lag));
+    return measured(off, "% of F t / m", 1,
+                    "lag " + std::to_string(behind).substr(0, 5) + " of " + std::to_string(lag).substr(0, 5) +
+                        " units");
+}
+
 Outcome pulley(const Lab& lab)
 {
     // Atwood's machine: a = g (M - m) / (M + m).
@@ -347,6 +383,7 @@ std::vector<Check> jointChecks()
             {"joints", "wheel", wheel},
             {"joints", "motor", motor},
             {"joints", "mouse", mouse},
+            {"joints", "mouse, dragging", dragging},
             {"joints", "pulley", pulley},
             {"joints", "breaking", breaking},
             {"joints", "reaction force", reaction},

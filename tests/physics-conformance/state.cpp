@@ -106,6 +106,51 @@ Outcome continuing(const Lab& lab, bool otherWorld)
     return {Outcome::Verdict::Supported, 0, 0, {}, std::to_string(state.size()) + " bytes for 62 bodies"};
 }
 
+/// A hand is no part of what a world is made of: states of before a drag, of its midst and of after it restore each
+/// other, in the world that saved them and in an equal one, with the joint or without it.
+Outcome dragged(const Lab& lab)
+{
+    const int grabbed = 20, letGo = 50, end = 70;
+    const auto world = scene(lab);
+    JointHandle hand = kNoHandle;
+    const auto act = [&](PhysicsWorld& in, int step) {
+        if (step == grabbed) {
+            JointDef def = joint(JointDef::Kind::Mouse, background(at(in, 3)), on(3, at(in, 3)));
+            def.hertz = 5, def.maxForce = 1e5;
+            hand = in.addJoint(def);
+        }
+        if (step > grabbed && step < letGo) in.setJointTarget(hand, {3.0 * step, -200});
+        if (step == letGo) in.removeJoint(hand);
+        in.step(kStep);
+    };
+    std::vector<std::vector<std::byte>> states;
+    std::vector<std::uint64_t> hashes;
+    std::vector<double> heights;
+    for (int step = 0; step < end; ++step) {
+        states.push_back(world->save()), hashes.push_back(world->hash());
+        heights.push_back(at(*world, 3).y());
+        act(*world, step);
+    }
+    const std::uint64_t last = world->hash();
+    if (heights[letGo] > heights[grabbed] - 20) return holds(false, "the hand does not lift the body");
+    const auto other = scene(lab);
+    for (PhysicsWorld* again : {world.get(), other.get()})
+        for (const int from : {grabbed - 10, grabbed + 10, letGo + 5, grabbed + 20, 0}) {
+            again->restore(states[from]);
+            for (int step = from; step < end; ++step) {
+                if (again->hash() != hashes[step])
+                    return holds(false, "restored to step " + std::to_string(from) + ", other bits at step " +
+                                            std::to_string(step));
+                act(*again, step);
+            }
+            if (again->hash() != last) return holds(false, "the last step is another one");
+        }
+    // To before the drag: nobody holds anything.
+    world->restore(states[grabbed - 10]);
+    run(*world, (letGo - grabbed + 10) * kStep);
+    return holds(at(*world, 3).y() > heights[letGo] + 20, "a hand of a future that was gone back from still pulls");
+}
+
 Outcome foreign(const Lab& lab)
 {
     const auto world = scene(lab);
@@ -292,6 +337,7 @@ std::vector<Check> stateChecks()
             {"state", "the hash sees a small push", oneBit},
             {"state", "a snapshot goes on bit-equal", [](const Lab& lab) { return continuing(lab, false); }},
             {"state", "a snapshot in an equal world", [](const Lab& lab) { return continuing(lab, true); }},
+            {"state", "drags come and go", dragged},
             {"state", "broken snapshots are refused", foreign},
             {"state", "poisoned inputs are refused", poison},
             {"state", "absurd forces stay finite", absurd}};
