@@ -18,6 +18,7 @@
 #include <jet/item_type.hpp>
 #include <jet/items_center.hpp>
 #include <jet/journal.hpp>
+#include <jet/line_tool.hpp>
 #include <jet/live_body.hpp>
 #include <jet/materials.hpp>
 #include <jet/painter.hpp>
@@ -143,6 +144,7 @@ TYPE(jet::ReplayedScene)
 TYPE(jet::Journal)
 TYPE(jet::JournalInfo)
 TYPE(jet::Recovery)
+TYPE(jet::LineTool)
 TYPE(jet::LiveSpring)
 TYPE(jet::LiveBody)
 TYPE(jet::MaterialTable)

@@ -74,7 +74,9 @@ TEST(Sift, WhereNothingIsWrittenForAvx512Avx2IsTaken)
     };
     EXPECT_EQ(choice(Simd::Avx512), choice(Simd::Avx2));
     EXPECT_EQ(&sieve(choice(Simd::Avx512)), &sieve(choice(Simd::Automatic)));
-    if (hasAvx2()) EXPECT_NE(&sieve(choice(Simd::Avx512)), &sieve(choice(Simd::Sse2)));
+    if (hasAvx2()) {
+        EXPECT_NE(&sieve(choice(Simd::Avx512)), &sieve(choice(Simd::Sse2)));
+    }
 }
 
 TEST(Sift, EightPairsAreSeenAsEachOfThemIs)
