@@ -116,22 +116,6 @@ bool Stage::has(ActuatorKind kind, ActuatorHandle handle) const
     return false;
 }
 
-namespace {
-
-std::string_view nameOf(ActuatorKind kind)
-{
-    switch (kind) {
-    case ActuatorKind::Spring: return "spring";
-    case ActuatorKind::AngularSpring: return "angular spring";
-    case ActuatorKind::Torque: return "torque";
-    case ActuatorKind::Force: return "force";
-    case ActuatorKind::ForceField: return "force field";
-    }
-    fail("there is no such kind of actuator.");
-}
-
-}  // namespace
-
 bool World::hasBody(BodyHandle body) const { return body < bodyCount() && !stage_->bodies()[body].removed; }
 bool World::hasActuator(ActuatorKind kind, ActuatorHandle actuator) const { return stage_->has(kind, actuator); }
 bool World::hasJoint(JointHandle joint) const { return joint < jointCount() && !stage_->joints()[joint].removed; }

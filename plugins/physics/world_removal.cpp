@@ -22,22 +22,6 @@ void World::requireBodies(std::initializer_list<const Anchor*> anchors) const
         if (anchor->body != kNoHandle) requireBody(anchor->body);
 }
 
-namespace {
-
-std::string_view nameOf(ActuatorKind kind)
-{
-    switch (kind) {
-    case ActuatorKind::Spring: return "spring";
-    case ActuatorKind::AngularSpring: return "angular spring";
-    case ActuatorKind::Torque: return "torque";
-    case ActuatorKind::Force: return "force";
-    case ActuatorKind::ForceField: return "force field";
-    }
-    checks().fail("there is no such kind of actuator.");
-}
-
-}  // namespace
-
 Index World::actuatorCount(ActuatorKind kind) const
 {
     return kind == ActuatorKind::ForceField ? fields_.count() : actuators_.count(kind);

@@ -55,6 +55,18 @@ std::optional<CastHit> PhysicsWorld::nearest(const Vec2&, double, const QueryFil
     refuse("queries of what is where");
 }
 
+std::string_view nameOf(ActuatorKind kind)
+{
+    switch (kind) {
+    case ActuatorKind::Spring: return "spring";
+    case ActuatorKind::AngularSpring: return "angular spring";
+    case ActuatorKind::Torque: return "torque";
+    case ActuatorKind::Force: return "force";
+    case ActuatorKind::ForceField: return "force field";
+    }
+    throw Failure(Error("Physics: there is no such kind of actuator."));
+}
+
 WorldRemoval& removal(PhysicsWorld& world)
 {
     if (auto* able = dynamic_cast<WorldRemoval*>(&world)) return *able;

@@ -1,5 +1,6 @@
 // What engines refuse: the sentence names the engine, the item, the field, the value and the range.
 #include <jet/physics_checks.hpp>
+#include <jet/physics_removal.hpp>
 #include <jet/result.hpp>
 #include <jet/value.hpp>
 
@@ -31,6 +32,16 @@ JointDef jointOf(JointDef::Kind kind)
     def.kind = kind;
     def.b.body = 0;
     return def;
+}
+
+TEST(ActuatorKind, HasANameForMessages)
+{
+    std::string names;
+    for (const auto kind : {ActuatorKind::Spring, ActuatorKind::AngularSpring, ActuatorKind::Torque,
+                            ActuatorKind::Force, ActuatorKind::ForceField})
+        names.append(nameOf(kind)).append(", ");
+    EXPECT_EQ(names, "spring, angular spring, torque, force, force field, ");
+    EXPECT_EQ(refusalOf([] { nameOf(static_cast<ActuatorKind>(9)); }), "Physics: there is no such kind of actuator.");
 }
 
 TEST(PhysicsChecks, NameItemFieldValueAndRange)

@@ -27,10 +27,14 @@
 
 #include <jet/physics.hpp>
 
+#include <string_view>
+
 namespace jet {
 
 /// Actuators have handles per kind.
 enum class ActuatorKind : std::uint8_t { Spring, AngularSpring, Torque, Force, ForceField };
+/// As messages call it: "angular spring". Throws a Failure where there is no such kind.
+JET_API std::string_view nameOf(ActuatorKind);
 
 class JET_API WorldRemoval {
 public:
