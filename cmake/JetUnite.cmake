@@ -166,6 +166,7 @@ function(jet_unite target)
     get_target_property(moc ${target} AUTOMOC)
     if(moc AND files)
         # What moc writes is a source of its own, which CMake leaves out of what it unites.
+        list(GET groups -1 group)
         get_target_property(binary_folder ${target} BINARY_DIR)
         set(written "${binary_folder}/${target}_autogen/mocs_compilation.cpp")
         set(including "${binary_folder}/${target}_mocs.cpp")
