@@ -95,11 +95,11 @@ void Pool::stop()
     stopping_ = false;
 }
 
-/// Those that sleep, if any do: waits until the others have got what was written.
+/// Those that sleep, if any do. Who is about to counts himself before he looks for the last time for what was handed
+/// out: either he is seen here, or he sees it.
 void Pool::wakeSleepers()
 {
-    std::atomic_thread_fence(std::memory_order_seq_cst);
-    if (sleeping_.load() == 0) return;
+    if (sleeping_.fetch_add(0) == 0) return;
     const std::lock_guard lock(mutex_);
     wake_.notify_all();
 }
