@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kMostEdits = 60;
+constexpr unsigned kMostPause = 500;  // microseconds; an edit takes some 200, with a save 1,000
+
 /// What the child tells, in memory shared with the parent.
 struct Progress {
     std::atomic<std::uint64_t> done;
@@ -65,12 +68,14 @@ protected:
         }
     }
 
-    void runAndKill(Project& project, std::uint64_t seed, unsigned microseconds)
+    /// After so many edits, and some time.
+    void runAndKill(Project& project, std::uint64_t seed, std::uint64_t edits, unsigned microseconds)
     {
         progress->done = 0;
         const pid_t pid = ::fork();
         ASSERT_GE(pid, 0);
         if (pid == 0) child(project, seed);
+        while (progress->done < edits && progress->failed == 0) ::usleep(1000);
         ::usleep(microseconds);
         ::kill(pid, SIGKILL);
         int status = 0;
@@ -116,7 +121,9 @@ TEST_F(KillTest, NothingCommittedIsLostAndNoFileIsBroken)
         if (!untitled && project->file().empty()) project->saveAs(folder / "game").orThrow();
         const fs::path file = project->file();
         const std::uint64_t initial = project->hash(), seed = random();
-        runAndKill(*project, seed, static_cast<unsigned>(500 + random() % 25'000));
+        // In the midst of some edit, on a busy machine, too.
+        const std::uint64_t when = random();
+        runAndKill(*project, seed, when % kMostEdits, static_cast<unsigned>(when / kMostEdits % kMostPause));
         ASSERT_EQ(progress->failed, 0) << "a save failed in round " << round;
 
         ASSERT_TRUE(file.empty() || Project::load(file, events, catalog)) << "round " << round;
