@@ -290,7 +290,8 @@ void Solver<Real>::pass(const Pass& pass, Node node)
 template <class Real>
 void Solver<Real>::run()
 {
-    const auto passes = static_cast<std::size_t>(1 + shape_.substeps * (passes_ + relaxPasses()));
+    const int count = 1 + shape_.substeps * (passes_ + relaxPasses());
+    const auto passes = static_cast<std::size_t>(count);
     // What is driven through bodies of all domains belongs to none of them, and moves before they do.
     const auto moveCommon = [&](std::size_t round) {
         if (domains_.depth() > 0 && round < passes) moveBodies(passAt(round), Domains::kRoot);
