@@ -75,10 +75,13 @@ protected:
         const pid_t pid = ::fork();
         ASSERT_GE(pid, 0);
         if (pid == 0) child(project, seed);
-        while (progress->done < edits && progress->failed == 0) ::usleep(1000);
+        int status = 0;
+        while (progress->done < edits && progress->failed == 0) {
+            ASSERT_EQ(::waitpid(pid, &status, WNOHANG), 0) << "the child ended by itself";
+            ::usleep(1000);
+        }
         ::usleep(microseconds);
         ::kill(pid, SIGKILL);
-        int status = 0;
         ASSERT_EQ(::waitpid(pid, &status, 0), pid);
         ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << "the child ended by itself";
     }

@@ -4,8 +4,8 @@
 //
 // What a block does must not depend on who does it or when; then results are the same for any number of threads.
 //
-// A line of memory that another thread has written takes a quarter of a microsecond and more to come. So what is waited
-// for lies in few lines, each written by one thread where that can be, and what comes again and again with the same
+// A line of memory that another thread has written may take a quarter of a microsecond to come. So what is waited for
+// lies in few lines, each written by one thread where that can be, and what comes again and again with the same
 // shares is handed out once: rounds().
 #pragma once
 
