@@ -66,9 +66,9 @@ inline constexpr Place kAsleep = 0xfffffffdU;  // between bodies that rest: its 
 inline constexpr bool isPlaced(Place place) { return place < kAsleep; }
 inline constexpr int kLaneBits = 24;
 
-/// Two parts whose boxes meet. Two cache lines, of which pairs without points need the first alone, in rows of 16
-/// bytes; the impulses are the solver's while it has a constraint.
-struct alignas(16) RigidContact {
+/// Two parts whose boxes meet. Two cache lines of its own, as threads write different contacts, of which pairs without
+/// points need the first alone; the impulses are the solver's while it has a constraint.
+struct alignas(64) RigidContact {
     Index partA = 0, partB = 0;
     Index bodyA = 0, bodyB = 0;    // rigid bodies
     Relative at;                   // the pose the points were found in

@@ -52,6 +52,15 @@ public:
         if (!isLeaf(node)) below(static_cast<Node>(2 * node), work), below(static_cast<Node>(2 * node + 1), work);
         work(node);
     }
+    /// The same, each node between its children, so that halves of the order are halves of the tree.
+    template <class Work>
+    void across(Node node, Work&& work) const
+    {
+        if (isLeaf(node)) return work(node);
+        across(static_cast<Node>(2 * node), work);
+        work(node);
+        across(static_cast<Node>(2 * node + 1), work);
+    }
     static int levelOf(Node node) { return 31 - __builtin_clz(node); }
 
     /// Body 0 is in slot 0; those of the root alone come last. Undivided, they are in the order of the bodies.

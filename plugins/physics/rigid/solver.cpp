@@ -151,13 +151,14 @@ void Solver<Real>::warmNode(Node node)
 template <class Real>
 void Solver<Real>::turnNode(Node node)
 {
+    bool strained = false;
     for (const TurningRows<Real>& each : turning_[node])
-        strained_[node] |= each.turn(states_.data(), pushes_.data(), shape_.h, rows_[node], made_[node]);
+        strained |= each.turn(states_.data(), pushes_.data(), shape_.h, rows_[node], made_[node]);
     for (std::size_t i = 0; i < usedByJoints_[node]; ++i) {
         JointColour& c = jointColours_[firstColourOf(node) + i];
-        strained_[node] |=
-            kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size(), constants_);
+        strained |= kernels_->turnJoints(states_.data(), pushes_.data(), c.joints.data(), c.joints.size(), constants_);
     }
+    if (strained && !strained_[node]) strained_[node] = true;  // others' lie in the same line
 }
 
 /// Where the joints turn in the next substep, from velocities that they allow: what warm starting and forces make of

@@ -354,7 +354,8 @@ private:
     std::span<float> drifts_;  // [slots] of the collider, in the arena
     Pool* pool_ = nullptr;
     Arena* arena_ = nullptr;
-    std::vector<Block> blocks_;  // never shrinks, so that nothing is allocated in a steady step
+    std::vector<Block> blocks_;          // never shrinks, so that nothing is allocated in a steady step
+    std::vector<std::uint32_t> inTurn_;  // blocks of what has constraints, as threads take them
     std::vector<TouchChange> changes_;
     Settling settling_[Domains::kNodes + 1];
     std::vector<Index> shared_[Domains::kNodes + 1];  // [leaves] slots whose bodies others push as well
