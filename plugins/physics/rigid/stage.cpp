@@ -12,7 +12,7 @@ namespace jet::physics {
 namespace {
 
 constexpr std::size_t kSmallWorld = 512;  // bodies: worlds up to here are solved in double precision
-constexpr double kContactRate = 480;      // substeps a second of small worlds
+constexpr double kSmallWorldRate = 480;   // substeps a second of small worlds
 constexpr int kLargeSubsteps = 4;
 // Units / s²: far beyond what speed_limit.hpp leaves of it, and its square still a number in single precision.
 constexpr double kMostAcceleration = 1e15;
@@ -218,7 +218,7 @@ StepShape RigidStage::shapeOf(const WorldSettings& settings, double dt, bool lar
     StepShape shape;
     shape.substeps = settings.substeps > 0 ? settings.substeps
                      : large               ? kLargeSubsteps
-                                           : std::clamp(static_cast<int>(std::ceil(dt * kContactRate - 1e-9)), 1, 4096);
+                             : std::clamp(static_cast<int>(std::ceil(dt * kSmallWorldRate - 1e-9)), 1, 4096);
     shape.h = dt / shape.substeps;
     shape.restSpeed = 4 * (settings.applyGravity ? settings.gravity.norm() : 0) * shape.h;
     shape.choice = choiceOf(settings);
