@@ -125,6 +125,14 @@ TEST(Domains, ANodeIsVisitedAfterThoseBelowIt)
     EXPECT_EQ(order, (std::vector<int>{4, 5, 2, 6, 7, 3, 1}));
 }
 
+TEST(Domains, HalvesOfTheOrderAcrossAreHalvesOfTheTree)
+{
+    const Domains domains = divided(2, Grid(20, 10));
+    std::vector<int> order;
+    domains.across(Domains::kRoot, [&](Domains::Node node) { order.push_back(node); });
+    EXPECT_EQ(order, (std::vector<int>{4, 2, 5, 1, 6, 3, 7}));
+}
+
 void expectOneVisitEach(const Domains& domains, int bodies)
 {
     for (const int threads : {1, 2, 3, 8}) {
