@@ -1,5 +1,5 @@
 # Several sources compiled as one: what they include is read and instantiated once for all of them. For builds from nothing, as
-# continuous integration has them (docs/decisions/0088, 0095). Whoever works at a source compiles that one alone.
+# continuous integration has them (docs/decisions/0088, 0095, 0098). Whoever works at a source compiles that one alone.
 option(JET_UNITE "Compile several sources of a target as one" OFF)
 set(JET_UNITE_MOST 12 CACHE STRING "How many sources are compiled as one, at most")
 set(JET_UNITE_NOT "" CACHE STRING "Targets whose sources are compiled one by one all the same")
